@@ -1,0 +1,14 @@
+"""Bags: rosbag2 recordings to arrays and back, without ROS."""
+
+from diffbot_sim.bags.read import RecordedRun, read_run
+from diffbot_sim.bags.topics import Topics
+from diffbot_sim.bags.write import write_run, write_series, write_trajectory
+
+__all__ = [
+    'RecordedRun',
+    'Topics',
+    'read_run',
+    'write_run',
+    'write_series',
+    'write_trajectory',
+]

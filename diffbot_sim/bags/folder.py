@@ -1,0 +1,87 @@
+"""Writes the files of a bag into a folder without harming what else lies there."""
+
+from collections.abc import Sequence
+from operator import attrgetter
+from os import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, NamedTuple
+
+from rosbags.interfaces import (
+    Qos,
+    QosDurability,
+    QosHistory,
+    QosLiveliness,
+    QosReliability,
+    QosTime,
+)
+from rosbags.rosbag2 import StoragePlugin, Writer
+
+from diffbot_sim.bags.messages import STORE
+from diffbot_sim.errors import BagError
+
+METADATA = 'metadata.yaml'
+# Written into metadata.yaml: a bag that has it may be replaced.
+MARK = ('computed_by', 'diffbot_sim')
+FOREVER = QosTime(9223372036, 854775807)
+QUALITY = Qos(
+    history=QosHistory.KEEP_LAST,
+    depth=10,
+    reliability=QosReliability.RELIABLE,
+    durability=QosDurability.VOLATILE,
+    deadline=FOREVER,
+    lifespan=FOREVER,
+    liveliness=QosLiveliness.AUTOMATIC,
+    liveliness_lease_duration=FOREVER,
+    avoid_ros_namespace_conventions=False,
+)
+
+
+class Message(NamedTuple):
+    """One message: stamp [ns], topic, content."""
+
+    stamp: int
+    topic: str
+    content: Any
+
+
+def check_replaceable(folder: Path) -> None:
+    """Raise BagError when the folder is a file, or holds a bag that was not computed here."""
+    if folder.exists() and not folder.is_dir():
+        raise BagError(f'{folder}: a file is in the way. Choose another place.')
+    metadata = folder / METADATA
+    if metadata.exists() and ': '.join(MARK) not in metadata.read_text('utf-8', 'replace'):
+        raise BagError(f'{folder}: holds a recorded bag, which is kept. Choose another place.')
+
+
+def write_bag(folder: Path, messages: Sequence[Message]) -> None:
+    """Write a bag; one that was computed before is replaced, other files stay.
+
+    Raises BagError when the folder holds a recorded bag or cannot be written.
+    """
+    check_replaceable(folder)
+    target = folder.resolve()
+    try:
+        target.mkdir(parents=True, exist_ok=True)
+        with TemporaryDirectory(dir=target, prefix='.unfinished-') as workplace:
+            _write(Path(workplace) / target.name, sorted(messages, key=attrgetter('stamp')))
+            # Last comes what makes the folder a bag.
+            for name in (f'{target.name}.mcap', METADATA):
+                replace(Path(workplace) / target.name / name, target / name)
+    except OSError as error:
+        raise BagError(f'{folder}: cannot be written: {error.strerror}.') from error
+
+
+def _write(path: Path, messages: Sequence[Message]) -> None:
+    with Writer(path, version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        writer.set_custom_data(*MARK)
+        kinds = {message.topic: message.content.__msgtype__ for message in messages}
+        connections = {
+            topic: writer.add_connection(
+                topic, kind, typestore=STORE, offered_qos_profiles=[QUALITY]
+            )
+            for topic, kind in kinds.items()
+        }
+        for stamp, topic, content in messages:
+            data = STORE.serialize_cdr(content, content.__msgtype__)
+            writer.write(connections[topic], stamp, data)

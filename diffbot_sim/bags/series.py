@@ -1,0 +1,84 @@
+"""What one topic held: stamps put in order, unusable messages left out."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diffbot_sim.errors import BagError
+from diffbot_sim.records import Array
+
+Stamps = NDArray[np.int64]
+
+NANOSECONDS = 1_000_000_000
+# A clock that jumps further [ns] has been reset, or the bag holds two drives.
+LONGEST_STEP_BACK = NANOSECONDS
+LONGEST_GAP = 3600 * NANOSECONDS
+MOST_UNUSABLE = 0.01
+
+
+@dataclass(frozen=True)
+class Series:
+    """The messages of one topic.
+
+    received, stamped: times of receipt and of the header [ns], shape (n,), in order of receipt.
+    values: shape (n, m).
+    """
+
+    topic: str
+    received: Stamps
+    stamped: Stamps
+    values: Array
+
+    @property
+    def has_stamps(self) -> bool:
+        """Whether the headers are filled; a simulation clock may start at 0."""
+        return int(np.count_nonzero(self.stamped == 0)) <= 1
+
+
+@dataclass(frozen=True)
+class Ordered:
+    """Usable messages: stamps [ns], shape (n,), increasing; values, shape (n, m), finite.
+
+    dropped: how many were left out because they were not finite.
+    """
+
+    stamp: Stamps
+    values: Array
+    dropped: int
+
+
+def ordered(series: Series, by_header: bool) -> Ordered:
+    """Sort by one of the clocks; of equal stamps keep the last; leave out what is not finite.
+
+    Raises BagError when the clock jumps or more than 1 % of the messages are not finite.
+    """
+    stamp = series.stamped if by_header else series.received
+    _check_clock(series.topic, stamp)
+    finite = np.isfinite(series.values).all(axis=1)
+    dropped = int(np.count_nonzero(~finite))
+    if dropped > MOST_UNUSABLE * len(stamp):
+        raise BagError(
+            f'{series.topic}: {dropped} of {len(stamp)} messages hold NaN or infinity, '
+            'which is too many to leave out. Mend their source and record again.'
+        )
+    stamp, values = stamp[finite], series.values[finite]
+    order = np.argsort(stamp, kind='stable')
+    last = np.append(np.diff(stamp[order]) > 0, True)
+    return Ordered(stamp[order][last], values[order][last], dropped)
+
+
+def held(series: Ordered, stamps: Stamps) -> Array:
+    """Return the first column at other stamps, each value held until the next, 0 before all."""
+    index = np.searchsorted(series.stamp, stamps, side='right') - 1
+    return np.where(index >= 0, series.values[index, 0], 0.0)
+
+
+def _check_clock(topic: str, stamp: Stamps) -> None:
+    jumps = np.diff(stamp)
+    wild = jumps[(jumps < -LONGEST_STEP_BACK) | (jumps > LONGEST_GAP)]
+    if wild.size:
+        raise BagError(
+            f'{topic}: its clock jumps by {wild[0] / NANOSECONDS:g} s; was it reset during the '
+            'recording? Record each drive into a bag of its own.'
+        )

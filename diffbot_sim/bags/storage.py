@@ -1,0 +1,68 @@
+"""Opens bags and tells what is wrong with those that cannot be read."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rosbags.rosbag2 import Reader
+
+from diffbot_sim.bags.messages import STORE, odometry_row, wrench_row
+from diffbot_sim.bags.series import Series
+from diffbot_sim.bags.topics import Topics, find_topics
+from diffbot_sim.errors import BagError
+
+STORAGE = ('.mcap', '.db3')
+FORM = 'A bag is a folder that holds metadata.yaml, or one .mcap or .db3 file.'
+ROWS = {'left_force': wrench_row, 'right_force': wrench_row, 'odom': odometry_row}
+
+
+def read_series(path: Path, topics: Topics) -> dict[str, Series]:
+    """Return what the topics of left_force, right_force and odom hold; raises BagError."""
+    _check_place(path)
+    with _opened(path) as reader:
+        there = {item.topic: item.msgtype for item in reader.connections if item.msgcount}
+        chosen = find_topics(there, topics)
+        return {role: _read(reader, topic, role) for role, topic in chosen.items()}
+
+
+def _read(reader: Any, topic: str, role: str) -> Series:
+    sources = [item for item in reader.connections if item.topic == topic]
+    received, stamped, rows = [], [], []
+    for source, time, data in reader.messages(sources):
+        message: Any = STORE.deserialize_cdr(data, source.msgtype)
+        stamp = message.header.stamp
+        received.append(time)
+        stamped.append(stamp.sec * 10**9 + stamp.nanosec)
+        rows.append(ROWS[role](message))
+    return Series(topic, np.array(received), np.array(stamped), np.array(rows, dtype=float))
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[Any]:
+    try:
+        with Reader(path) as reader:
+            yield reader
+    except BagError:
+        raise
+    except Exception as error:  # damaged bytes surface as any of struct's, sqlite's, zstd's errors
+        detail = ' '.join(str(error).split()).rstrip('.') or type(error).__name__
+        raise BagError(
+            f'damaged, or cut off while it was recorded ({detail}). Record it again.'
+        ) from error
+
+
+def _check_place(path: Path) -> None:
+    if not path.exists():
+        raise BagError('there is no such bag.')
+    if path.is_file() and path.suffix not in STORAGE:
+        raise BagError(f'not a bag. {FORM}')
+    if path.is_dir() and not (path / 'metadata.yaml').exists():
+        files = [file.name for file in path.iterdir() if file.suffix in STORAGE]
+        if files:
+            raise BagError(
+                'no metadata.yaml: the recording was cut off. Mend it with '
+                f"'ros2 bag reindex', or try the file itself: {files[0]}."
+            )
+        raise BagError(f'not a bag. {FORM}')
