@@ -1,0 +1,18 @@
+"""One callable per command: the executables that setup.py installs for `ros2 run`."""
+
+import sys
+from functools import partial
+
+from diffbot_sim.__main__ import main
+
+
+def _run(command: str) -> int:
+    return main(sys.argv[1:], command)
+
+
+simulator = partial(_run, 'simulator')
+pi_controller = partial(_run, 'pi_controller')
+recorder = partial(_run, 'recorder')
+replay = partial(_run, 'replay')
+simulate = partial(_run, 'simulate')
+identify = partial(_run, 'identify')
