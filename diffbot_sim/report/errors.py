@@ -1,0 +1,64 @@
+"""The four errors, side by side: declared, recalibrated, with effects, noise floor."""
+
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from diffbot_sim.identification.result import Comparison, ErrorNorm, Errors, Identification
+from diffbot_sim.records import Trajectory
+
+LABELS = {
+    'declared': 'declared',
+    'recalibrated': 'recalibrated',
+    'with_effects': 'with effects',
+    'noise_floor': 'noise floor',
+}
+MODELS = ('declared', 'recalibrated', 'with_effects')
+
+
+@dataclass(frozen=True)
+class ErrorRow:
+    """One row of the table of errors: v [mm/s], ω [mrad/s], and both over the noise floor."""
+
+    key: str
+    label: str
+    v: float
+    omega: float
+    v_ratio: float
+    omega_ratio: float
+
+
+def error_rows(errors: Errors) -> list[ErrorRow]:
+    """List the errors in the order in which a model gets better."""
+    floor = errors.noise_floor
+    return [_row(key, getattr(errors, key), floor) for key in LABELS]
+
+
+def _row(key: str, norm: ErrorNorm, floor: ErrorNorm) -> ErrorRow:
+    v_ratio = _ratio(norm.v_rmse, floor.v_rmse)
+    omega_ratio = _ratio(norm.omega_rmse, floor.omega_rmse)
+    v, omega = 1e3 * norm.v_rmse, 1e3 * norm.omega_rmse
+    return ErrorRow(key, LABELS[key], v, omega, v_ratio, omega_ratio)
+
+
+def _ratio(error: float, floor: float) -> float:
+    return error / floor if floor > 0.0 else float('nan')
+
+
+def models_shown(result: Identification) -> tuple[str, ...]:
+    """Name the models worth drawing: where nothing was added, the last two are one."""
+    return MODELS[:2] if result.identified == result.recalibrated else MODELS
+
+
+def run_errors(run: Comparison) -> dict[str, dict[str, float]]:
+    """Return each model's error [m/s, rad/s] on one held-out stretch."""
+    return {key: asdict(_norm(run, getattr(run, key))) for key in MODELS}
+
+
+def _norm(run: Comparison, model: Trajectory) -> ErrorNorm:
+    square = (run.twist - model.twist) ** 2
+    known = square[np.isfinite(square).all(axis=1)]
+    if not len(known):
+        return ErrorNorm(float('nan'), float('nan'))
+    v, omega = np.sqrt(known.mean(axis=0))
+    return ErrorNorm(float(v), float(omega))

@@ -1,0 +1,81 @@
+"""report.html: one file that needs no network."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+from plotly.offline import get_plotlyjs
+
+from diffbot_sim.identification.result import Comparison, Identification
+from diffbot_sim.report import figures, rows, sentences
+from diffbot_sim.report.drawing import COLOURS, Figure
+from diffbot_sim.report.errors import LABELS, MODELS, error_rows, run_errors
+from diffbot_sim.report.numerals import significant
+
+
+@dataclass(frozen=True)
+class RunPart:
+    """What the page shows of one held-out stretch."""
+
+    name: str
+    span: str
+    errors: list[tuple[str, str]]
+    figures: list[Figure]
+
+
+def page_text(result: Identification) -> str:
+    """Render the whole page."""
+    return (
+        _environment()
+        .get_template('page.html.j2')
+        .render(
+            result=result,
+            verdict=sentences.verdict(result),
+            split=sentences.split(result.errors),
+            errors=error_rows(result.errors),
+            error_figures=figures.error_figures(result.errors),
+            effects=[rows.effect_row(effect) for effect in result.effects],
+            structure=result.unexplained and figures.structure_figure(result.unexplained),
+            strength=result.unexplained and sentences.structure(result.unexplained),
+            runs=[_run_part(result, run) for run in result.comparisons],
+            dependence=figures.residual_figures(result) if result.comparisons else [],
+            disturbance=figures.disturbance_figures(result) if result.comparisons else [],
+            nominal=rows.nominal_rows(result),
+            kept=rows.kept_rows(result),
+            candidates=[rows.candidate_row(candidate) for candidate in result.candidates],
+            ranking=figures.candidates_figure(result),
+            assumptions=sentences.assumptions(result),
+            colours=COLOURS,
+            labels=[LABELS[key] for key in MODELS],
+            plotly=Markup(get_plotlyjs()),
+        )
+    )
+
+
+def _environment() -> Environment:
+    environment = Environment(
+        loader=FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters.update(number=significant, drawn=_drawn)
+    return environment
+
+
+def _run_part(result: Identification, run: Comparison) -> RunPart:
+    span = f'{run.time[0]:.1f} to {run.time[-1]:.1f} s' if len(run.time) else 'no samples'
+    errors = [
+        (significant(1e3 * norm['v_rmse']), significant(1e3 * norm['omega_rmse']))
+        for norm in run_errors(run).values()
+    ]
+    return RunPart(run.run, span, errors, figures.run_figures(result, run))
+
+
+def _drawn(figure: Figure) -> Markup:
+    """Write what plotly.js draws as JSON that cannot end its script element."""
+    text = json.dumps({'data': figure.data, 'layout': figure.layout}, allow_nan=False)
+    return Markup(text.replace('<', '\\u003c'))

@@ -1,0 +1,129 @@
+"""Rows of the tables, in words, that the page and the terminal share."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from diffbot_sim.identification.result import Candidate, Estimate, FoundEffect, Identification
+from diffbot_sim.parameters import Spec, specs
+from diffbot_sim.physics.effects import library
+from diffbot_sim.physics.model import Model
+from diffbot_sim.report.numerals import estimate_text, significant, unit_text
+from diffbot_sim.report.sentences import alternatives, p_text
+
+EVIDENCE = {
+    'delta_bic': 'the BIC falls by',
+    'p_value': 'likelihood-ratio p',
+    'p_block': 'p robust against serial correlation',
+    'held_out_gain': 'held-out log likelihood per sample rises by',
+}
+
+
+@dataclass(frozen=True)
+class ParameterRow:
+    """A parameter, its value now and, where there was one, its value before."""
+
+    name: str
+    meaning: str
+    value: str
+    declared: str = ''
+
+
+@dataclass(frozen=True)
+class EffectRow:
+    """An effect that was found, in words."""
+
+    name: str
+    meaning: str
+    parameters: list[ParameterRow]
+    evidence: list[tuple[str, str]]
+    alternatives: str
+
+
+@dataclass(frozen=True)
+class CandidateRow:
+    """How an effect fared, in words."""
+
+    name: str
+    meaning: str
+    score: str
+    p_value: str
+    p_block: str
+    held_out_gain: str
+    outcome: str
+
+
+def effect_row(effect: FoundEffect) -> EffectRow:
+    """Put a found effect into words."""
+    known = {spec.name: spec for spec in _effect_specs(effect.name)}
+    parameters = [
+        ParameterRow(name, known[name].meaning if name in known else '', estimate_text(estimate))
+        for name, estimate in effect.parameters.items()
+    ]
+    evidence = [_evidence(name, value) for name, value in effect.evidence.items()]
+    return EffectRow(effect.name, meaning(effect.name), parameters, evidence, alternatives(effect))
+
+
+def nominal_rows(result: Identification) -> list[ParameterRow]:
+    """List the refitted parameters of the declared model, before and after."""
+    return [_nominal(result.declared, *item) for item in result.nominal.items()]
+
+
+def kept_rows(result: Identification) -> list[ParameterRow]:
+    """List the parameters of robot and friction that stayed as declared."""
+    fitted = {name.split('.')[-1] for name in result.nominal}
+    parts = (result.declared.robot, result.declared.friction)
+    return [
+        ParameterRow(spec.name, spec.meaning, f'{getattr(part, spec.name)}{unit_text(spec.unit)}')
+        for part in parts
+        for spec in specs(part)
+        if spec.name not in fitted
+    ]
+
+
+def candidate_row(candidate: Candidate) -> CandidateRow:
+    """Put one trial into words."""
+    return CandidateRow(
+        candidate.name,
+        meaning(candidate.name),
+        significant(candidate.score),
+        p_text(candidate.p_value),
+        p_text(candidate.p_block),
+        significant(candidate.held_out_gain, 2),
+        candidate.outcome,
+    )
+
+
+def meaning(name: str) -> str:
+    """Return an effect's one line of meaning; empty for a name outside the library."""
+    kind = library().get(name)
+    return '' if kind is None else kind.meaning
+
+
+def _effect_specs(name: str) -> tuple[Spec, ...]:
+    kind = library().get(name)
+    return () if kind is None else kind.specs()
+
+
+def _nominal(model: Model, name: str, estimate: Estimate) -> ParameterRow:
+    spec, value = _declared(model, name)
+    if spec is None:
+        return ParameterRow(name, '', estimate_text(estimate))
+    declared = f'{value:g}{unit_text(spec.unit)}'
+    return ParameterRow(name, spec.meaning, estimate_text(estimate), declared)
+
+
+def _declared(model: Model, name: str) -> tuple[Spec | None, Any]:
+    """Find a parameter called `leaf` or `part.leaf` in robot, friction or effects."""
+    *owner, leaf = name.split('.')
+    parts = {'robot': model.robot, 'friction': model.friction}
+    parts |= {effect.name: effect for effect in model.effects}
+    for key, part in parts.items():
+        for spec in specs(part):
+            if spec.name == leaf and (not owner or owner[-1] == key):
+                return spec, getattr(part, leaf)
+    return None, None
+
+
+def _evidence(name: str, value: float) -> tuple[str, str]:
+    said = p_text(value) if name.startswith('p_') else significant(value)
+    return EVIDENCE.get(name, name.replace('_', ' ')), said

@@ -1,0 +1,125 @@
+"""The words of the report: what was found, how sure it is, and in which units."""
+
+from math import isfinite
+
+from diffbot_sim.identification.result import (
+    EFFECTS_FOUND,
+    NOTHING_MISSING,
+    Errors,
+    FoundEffect,
+    Identification,
+    Structure,
+)
+from diffbot_sim.report.numerals import estimate_text, significant
+
+SPLITS = {
+    'validate': 'on whole runs that were not fitted',
+    'held_out': 'on the last part of each run, which was not fitted',
+}
+
+
+def verdict(result: Identification) -> str:
+    """Say the answer in one sentence."""
+    if result.verdict == NOTHING_MISSING:
+        return f'Nothing missing: {_sufficient(result.errors)}.'
+    found = _listed([_named(effect) for effect in result.effects])
+    if result.verdict == EFFECTS_FOUND:
+        return f'Found: {found}; {_fall(result.errors)}.'
+    besides = f'; found besides: {found}' if result.effects else ''
+    return f'Unexplained: {_left(result)}{besides}; {_fall(result.errors)}.'
+
+
+def _sufficient(errors: Errors) -> str:
+    left, floor = errors.recalibrated, errors.noise_floor
+    return (
+        'recalibrated, the declared model predicts held-out speed to '
+        f'{_speed(left.v_rmse)} and turn rate to {_rate(left.omega_rmse)}; '
+        f'noise floor {_speed(floor.v_rmse)} and {_rate(floor.omega_rmse)}'
+    )
+
+
+def _named(effect: FoundEffect) -> str:
+    values = ', '.join(f'{name} {estimate_text(it)}' for name, it in effect.parameters.items())
+    rivals = f'; {_listed(effect.alternatives, "or")} would do as well'
+    inside = values + (rivals if effect.alternatives else '')
+    return f'{effect.name} ({inside})' if inside else effect.name
+
+
+def _fall(errors: Errors) -> str:
+    """Tell of the axis, speed or turn rate, whose error changes most."""
+    before, after, floor = errors.recalibrated, errors.with_effects, errors.noise_floor
+    turning = before.omega_rmse * after.v_rmse > before.v_rmse * after.omega_rmse
+    what, said = ('turn-rate', _rate) if turning else ('speed', _speed)
+    key = 'omega_rmse' if turning else 'v_rmse'
+    old, new, least = (getattr(norm, key) for norm in (before, after, floor))
+    if said(old) == said(new):
+        return f'held-out {what} error {said(old)}; noise floor {said(least)}'
+    change = f'{"falls" if new < old else "rises"} from {said(old)} to {said(new)}'
+    return f'held-out {what} error {change}; noise floor {said(least)}'
+
+
+def structure(left: Structure) -> str:
+    """Say how strong the unexplained structure is and how sure."""
+    unit = 'N·m' if left.axis == 'omega' else 'N'
+    return (
+        f'{significant(left.strength)} {unit} (root mean square) depend on '
+        f'{left.variable.replace("_", " ")}; p {p_text(left.p_value)}, robust against serial '
+        'correlation.'
+    )
+
+
+def _left(result: Identification) -> str:
+    if result.unexplained is None:
+        return 'the residual has structure that no effect of the library accounts for'
+    return result.unexplained.description.strip().rstrip('.')
+
+
+def alternatives(effect: FoundEffect) -> str:
+    """Say what the data cannot tell apart and which drive would; empty where it can."""
+    if not effect.alternatives:
+        return ''
+    rivals = _listed(effect.alternatives, 'or')
+    drive = f' To separate them: {effect.separate_by.rstrip(".")}.' if effect.separate_by else ''
+    return f'This data cannot tell {effect.name} from {rivals}.{drive}'
+
+
+def split(errors: Errors) -> str:
+    """Say on which data the errors were measured."""
+    return SPLITS.get(errors.split, errors.split)
+
+
+def assumptions(result: Identification) -> list[str]:
+    """List what the answer takes for granted."""
+    return [
+        f'Errors are those of free-running simulation {split(result.errors)}: started from the '
+        'measured state, driven by the recorded forces alone, never corrected on the way.',
+        'The noise floor is the error that a perfect model would still have: '
+        'measurement noise, taken as white.',
+        'Force disturbances are allowed to be correlated in time (an uneven floor), '
+        'so that they do not pass for an effect.',
+        'Recorded forces are held until the next one; time counts from the start of each run.',
+        'Wheels roll without slip, and all runs are of one robot in one condition.',
+        'Gravity is 9.80665 m/s².',
+        'Intervals are 95 % intervals, each for its parameter alone.',
+    ]
+
+
+def p_text(p: float) -> str:
+    """Write a p-value; the smallest are told as a bound."""
+    if not isfinite(p):
+        return '–'
+    return '< 1e-12' if p < 1e-12 else f'{p:.2g}'
+
+
+def _speed(v: float) -> str:
+    return f'{significant(1e3 * v)} mm/s'
+
+
+def _rate(omega: float) -> str:
+    return f'{significant(1e3 * omega)} mrad/s'
+
+
+def _listed(words: list[str] | tuple[str, ...], last: str = 'and') -> str:
+    if len(words) < 2:
+        return ''.join(words)
+    return f'{", ".join(words[:-1])} {last} {words[-1]}'

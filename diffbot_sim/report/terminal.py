@@ -1,0 +1,69 @@
+"""The summary in the terminal: the report in brief, plain where it is not a terminal."""
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from diffbot_sim.identification.result import Identification
+from diffbot_sim.report import sentences
+from diffbot_sim.report.errors import error_rows
+from diffbot_sim.report.numerals import significant
+from diffbot_sim.report.rows import candidate_row, effect_row
+
+TOP = 5
+COLOURS = {'nothing_missing': 'green', 'effects_found': 'cyan', 'unexplained': 'yellow'}
+
+
+def print_summary(result: Identification, console: Console | None = None) -> None:
+    """Print the verdict and the tables of errors, effects and best candidates."""
+    console = console or Console(highlight=False)
+    style = f'bold {COLOURS.get(result.verdict, "")}'
+    console.print(Text(sentences.verdict(result), style=style), '')
+    console.print(_errors(result))
+    if result.effects:
+        console.print(_effects(result))
+    for effect in result.effects:
+        if effect.alternatives:
+            console.print(Text(sentences.alternatives(effect)), '')
+    if result.candidates:
+        console.print(_candidates(result))
+    for advice in result.advice:
+        console.print(Text(f'Next: {advice}'))
+
+
+def _errors(result: Identification) -> Table:
+    title = 'Free-running error on held-out data'
+    table = _table(title, 'model', '>v [mm/s]', '>ω [mrad/s]', '>v, ω over noise floor')
+    for row in error_rows(result.errors):
+        ratios = f'{significant(row.v_ratio)}, {significant(row.omega_ratio)}'
+        table.add_row(row.label, significant(row.v), significant(row.omega), ratios)
+    return table
+
+
+def _effects(result: Identification) -> Table:
+    table = _table('Effects found', 'effect', 'parameter', '>value, 95 % interval')
+    for effect in map(effect_row, result.effects):
+        names = [effect.name] + [''] * (len(effect.parameters) - 1)
+        for name, parameter in zip(names, effect.parameters, strict=False):
+            table.add_row(Text(name), Text(parameter.name), Text(parameter.value))
+    return table
+
+
+def _candidates(result: Identification) -> Table:
+    table = _table('Best candidates', 'effect', '>BIC falls by', '>p, robust', 'outcome')
+    for row in map(candidate_row, result.candidates[:TOP]):
+        table.add_row(Text(row.name), row.score, row.p_block, Text(row.outcome))
+    return table
+
+
+def _table(title: str, *columns: str) -> Table:
+    """Make a table; a column that starts with '>' is set to the right."""
+    table = Table(title=title, box=box.SIMPLE_HEAD, title_justify='left', title_style='bold')
+    for name in columns:
+        text = Text(name.removeprefix('>'))  # as Text, since rich takes [mm/s] for a style
+        if name.startswith('>'):
+            table.add_column(text, justify='right', no_wrap=True)
+        else:
+            table.add_column(text, no_wrap=name != 'outcome', overflow='fold')
+    return table

@@ -1,0 +1,21 @@
+"""The report's files: a reader finds the old file or the new one, never half of one."""
+
+from pathlib import Path
+
+from diffbot_sim.identification.result import Identification
+from diffbot_sim.report.json_report import json_text
+
+
+def write_report(result: Identification, out: Path) -> None:
+    """Write report.json and report.html into a folder, which is made where it lacks.
+
+    Raises OSError when the folder cannot be written.
+    """
+    from diffbot_sim.report.page import page_text  # plotting loads slowly
+
+    texts = {'report.json': json_text(result), 'report.html': page_text(result)}
+    out.mkdir(parents=True, exist_ok=True)
+    for name, text in texts.items():
+        part = out / f'{name}.part'
+        part.write_text(text, encoding='utf-8')
+        part.replace(out / name)
