@@ -1,0 +1,132 @@
+"""An identification made by hand, for tests of what is written about it."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from diffbot_sim.identification.result import (
+    EFFECTS_FOUND,
+    NOTHING_MISSING,
+    UNEXPLAINED,
+    Candidate,
+    Comparison,
+    ErrorNorm,
+    Errors,
+    Estimate,
+    FoundEffect,
+    Identification,
+    Structure,
+)
+from diffbot_sim.physics.effects import Effect, library
+from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.robot import Robot
+from diffbot_sim.records import Array, Trajectory
+
+NOISE = (0.004, 0.008)
+
+
+def found(name: str = 'quadratic_drag', with_pose: bool = True) -> Identification:
+    """Return an answer that names one effect of the library."""
+    effect = FoundEffect(
+        name,
+        {
+            spec.name: Estimate(0.6 * spec.scale, 0.57 * spec.scale, 0.63 * spec.scale, spec.unit)
+            for spec in library()[name].specs()
+        },
+        {'delta_bic': 812.4, 'p_value': 0.0, 'p_block': 3.2e-7, 'held_out_gain': 0.21},
+        alternatives=('slope',),
+        separate_by='drive the same speeds at the opposite heading',
+    )
+    return replace(
+        nothing_missing(with_pose),
+        verdict=EFFECTS_FOUND,
+        effects=(effect,),
+        errors=errors(0.031),
+        candidates=candidates(name),
+        identified=Model().with_effect(_guess(library()[name])),
+        comparisons=(comparison(0.03, with_pose), comparison(0.02, with_pose, 'second drive')),
+        advice=('turn on the spot: yaw friction leaves no trace in this drive',),
+    )
+
+
+def nothing_missing(with_pose: bool = True) -> Identification:
+    """Return an answer that adds nothing."""
+    mass = Estimate(10.213, 10.171, 10.255, 'kg')
+    viscous = Estimate(0.0807, 0.0771, 0.0862, 's/m')
+    recalibrated = Model(Robot(mass=10.2))
+    return Identification(
+        verdict=NOTHING_MISSING,
+        effects=(),
+        unexplained=None,
+        nominal={'robot.mass': mass, 'friction.mu_viscous': viscous},
+        errors=errors(0.0041),
+        candidates=candidates(''),
+        declared=Model(),
+        recalibrated=recalibrated,
+        identified=recalibrated,
+        comparisons=(comparison(0.0, with_pose),),
+    )
+
+
+def unexplained(with_pose: bool = True) -> Identification:
+    """Return an answer that leaves structure without a name."""
+    knots = np.linspace(-np.pi, np.pi, 25)
+    curve = 0.8 * np.sin(3.0 * knots)
+    structure = Structure(
+        'a force along x that depends on the heading', 'v', 'heading', 0.57, 2e-9,
+        knots, curve, np.full_like(knots, 0.08),
+    )  # fmt: skip
+    return replace(found(with_pose=with_pose), verdict=UNEXPLAINED, unexplained=structure)
+
+
+def errors(recalibrated: float) -> Errors:
+    """Return errors that end near the noise floor."""
+    floor = ErrorNorm(*NOISE)
+    return Errors(
+        'held_out', ErrorNorm(0.052, 0.021), ErrorNorm(recalibrated, 0.0081),
+        ErrorNorm(0.0041, 0.0081), floor,
+    )  # fmt: skip
+
+
+def candidates(first: str) -> tuple[Candidate, ...]:
+    """Return one trial of each effect, the first one successful; one has no number."""
+    names = sorted(library(), key=lambda name: (name != first, name))
+    scores = [812.4, 47.0, *np.linspace(6.0, -9.0, len(names) - 2)]
+    outcomes = [
+        'entered' if first else 'rejected',
+        *['not better than chance on held-out data'] * (len(names) - 1),
+    ]
+    p_block = [3.2e-7, float('nan'), *np.linspace(0.02, 0.9, len(names) - 2)]
+    return tuple(
+        Candidate(name, score, 0.0, p, 0.1, outcome)
+        for name, score, p, outcome in zip(names, scores, p_block, outcomes, strict=True)
+    )
+
+
+def comparison(missing: float, with_pose: bool, run: str = 'first drive') -> Comparison:
+    """Return a stretch in which a fast robot is slower than the models believe."""
+    time = np.arange(90.0, 120.0, 0.02)
+    truth = _trajectory(time, 0.0)
+    noise = np.random.default_rng(1).normal(0.0, NOISE, (len(time), 2))
+    twist = truth.twist + noise
+    twist[7] = np.nan
+    return Comparison(
+        run, time, twist, truth.pose if with_pose else None, _trajectory(time, missing + 0.04),
+        _trajectory(time, missing), truth, 10.0 * noise,
+    )  # fmt: skip
+
+
+def _trajectory(time: Array, excess: float) -> Trajectory:
+    v = 0.8 * np.sin(0.7 * time) + 0.3 * np.sin(2.1 * time)
+    v = v + excess * v * np.abs(v)
+    omega = 0.9 * np.cos(0.45 * time)
+    yaw = np.cumsum(omega) * 0.02
+    xy = np.cumsum(0.02 * v[:, None] * np.column_stack([np.cos(yaw), np.sin(yaw)]), axis=0)
+    wheels = np.column_stack([v + 0.2 * omega, v - 0.2 * omega])
+    angle = np.cumsum(wheels, axis=0) * 0.02 / 0.08
+    pose, force = np.column_stack([xy, yaw]), 4.0 * wheels
+    return Trajectory(time, np.column_stack([v, omega]), pose, angle, wheels, force, 0.3 * wheels)
+
+
+def _guess(kind: type[Effect]) -> Effect:
+    return kind(*kind.guesses[0])
