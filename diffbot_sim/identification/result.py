@@ -1,0 +1,130 @@
+"""What identification concludes: frozen records that reports read and never change."""
+
+from dataclasses import dataclass, field
+
+from diffbot_sim.physics.model import Model
+from diffbot_sim.records import Array, Trajectory
+
+NOTHING_MISSING = 'nothing_missing'
+EFFECTS_FOUND = 'effects_found'
+UNEXPLAINED = 'unexplained'
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter with its 95 % interval [low, high]."""
+
+    value: float
+    low: float
+    high: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class FoundEffect:
+    """An effect that the declared model lacked.
+
+    evidence: named figures, such as delta_bic, p_value, p_block, held_out_gain.
+    alternatives: effects that this data cannot tell from it; separate_by: the drive that would.
+    """
+
+    name: str
+    parameters: dict[str, Estimate]
+    evidence: dict[str, float]
+    alternatives: tuple[str, ...] = ()
+    separate_by: str = ''
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """How one effect fared when it was last tried.
+
+    score: fall of the BIC when the effect is added (positive favours it); p_value: of the
+    likelihood ratio; p_block: the same, robust against serial correlation; held_out_gain: fall
+    of the mean negative log likelihood on held-out data; outcome: what came of it, in words.
+    """
+
+    name: str
+    score: float
+    p_value: float
+    p_block: float
+    held_out_gain: float
+    outcome: str
+    parameters: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Structure left in the residual that no effect of the library accounts for.
+
+    axis: 'v' (force along x, N) or 'omega' (torque, N·m); variable: what it depends on;
+    strength: rms of the force or torque explained by that variable; p_value: block-robust.
+    knots, force: the empirical curve, with force_error its standard error, for a plot.
+    """
+
+    description: str
+    axis: str
+    variable: str
+    strength: float
+    p_value: float
+    knots: Array
+    force: Array
+    force_error: Array
+
+
+@dataclass(frozen=True)
+class ErrorNorm:
+    """Root mean square of an error in v [m/s] and ω [rad/s]."""
+
+    v_rmse: float
+    omega_rmse: float
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Free-running simulation errors on held-out data, before and after.
+
+    split: 'validate' (whole runs that were not fitted) or 'held_out' (the last part of each).
+    """
+
+    split: str
+    declared: ErrorNorm
+    recalibrated: ErrorNorm
+    with_effects: ErrorNorm
+    noise_floor: ErrorNorm
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One held-out stretch: what was measured and what each model predicts, free-running.
+
+    twist, pose: measured (pose None where none was recorded); the three trajectories are given
+    at the same stamps. disturbance: the force [N] and torque [N·m] on the body, shape (k, 2),
+    that the identified model still lacks, as estimated while predicting one step ahead.
+    """
+
+    run: str
+    time: Array
+    twist: Array
+    pose: Array | None
+    declared: Trajectory
+    recalibrated: Trajectory
+    with_effects: Trajectory
+    disturbance: Array
+
+
+@dataclass(frozen=True)
+class Identification:
+    """The whole answer."""
+
+    verdict: str
+    effects: tuple[FoundEffect, ...]
+    unexplained: Structure | None
+    nominal: dict[str, Estimate]
+    errors: Errors
+    candidates: tuple[Candidate, ...]
+    declared: Model
+    recalibrated: Model
+    identified: Model
+    comparisons: tuple[Comparison, ...]
+    advice: tuple[str, ...] = ()

@@ -1,0 +1,81 @@
+"""Parameter fields: one declaration gives YAML keys, ROS parameters, fit bounds and report rows."""
+
+from dataclasses import MISSING, dataclass, field, fields
+from difflib import get_close_matches
+from math import inf, isfinite
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Spec:
+    """What is known of one parameter.
+
+    low and high bound the value, both allowed; choices lists the valid texts instead.
+    scale is a typical size of a departure from neutral: it starts and scales fits.
+    """
+
+    name: str
+    default: Any
+    unit: str
+    meaning: str
+    low: float = -inf
+    high: float = inf
+    scale: float = 1.0
+    choices: tuple[str, ...] = ()
+
+    @property
+    def valid(self) -> str:
+        """The valid values in words."""
+        if self.choices:
+            return 'one of ' + ', '.join(self.choices)
+        return f'{self.low:g} to {self.high:g} {self.unit}'.rstrip()
+
+    def fault(self, value: object) -> str | None:
+        """Say what is wrong with a value, or None."""
+        if self.choices:
+            return None if value in self.choices else self._refuse(value)
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            return self._refuse(value)
+        inside = isfinite(value) and self.low <= value <= self.high
+        return None if inside else self._refuse(value)
+
+    def _refuse(self, value: object) -> str:
+        return f'{value!r} is not valid; {self.name} ({self.meaning}) takes {self.valid}'
+
+
+def parameter(
+    default: Any,
+    *,
+    unit: str = '',
+    meaning: str,
+    low: float = -inf,
+    high: float = inf,
+    scale: float = 1.0,
+    choices: tuple[str, ...] = (),
+) -> Any:
+    """Declare a dataclass field that is a parameter."""
+    facts = {
+        'unit': unit,
+        'meaning': meaning,
+        'low': low,
+        'high': high,
+        'scale': scale,
+        'choices': choices,
+    }
+    return field(default=default, metadata={'parameter': facts})
+
+
+def specs(kind: Any) -> tuple[Spec, ...]:
+    """List the parameters of a dataclass (or of an instance) in the order of its fields."""
+    return tuple(
+        Spec(item.name, None if item.default is MISSING else item.default, **facts)
+        for item in fields(kind)
+        if (facts := item.metadata.get('parameter')) is not None
+    )
+
+
+def suggestion(word: str, known: list[str]) -> str:
+    """Name the known words and the nearest one, for the end of an error message."""
+    near = get_close_matches(word, known, n=1)
+    guess = f" Did you mean '{near[0]}'?" if near else ''
+    return f'Known: {", ".join(known)}.{guess}'

@@ -1,0 +1,139 @@
+"""Chains the kernels of a set of effects into one compiled function for each stage."""
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any, NamedTuple
+
+from numba import njit, types
+from numba.np.unsafe.ndarray import to_fixed_tuple
+
+from diffbot_sim.physics.compiled import compiled
+from diffbot_sim.physics.effects import Effect
+from diffbot_sim.physics.instant import (
+    Inputs,
+    Instant,
+    gather,
+    nominal_balance,
+    nominal_law,
+)
+from diffbot_sim.physics.stages import Load, Motion, Stage, Traction, numba_type
+
+ARRAY = types.Array(types.float64, 1, 'C')
+# Where the first effect's parameters stand in Model.pack().
+BODY_PARAMETERS = 9
+
+
+# The compiled stages of a set: (params, states, motion, inputs, right, left) -> Instant,
+# where right and left are the directions in which the wheels roll or are pushed.
+Laws = Callable[..., Instant]
+# (params, states, motion, inputs) -> None: writes the states reached after motion.elapsed.
+Settle = Callable[..., None]
+
+
+class _Link(NamedTuple):
+    """One kernel of a chain and where its numbers stand in params and states."""
+
+    kernel: Callable[..., Any]
+    update: Callable[..., Any] | None
+    first: int
+    last: int
+    first_state: int
+    last_state: int
+
+
+_PLACE = (ARRAY, ARRAY, numba_type(Motion), numba_type(Inputs))
+LAWS_SIGNATURE = numba_type(Instant)(*_PLACE, types.float64, types.float64)
+SETTLE_SIGNATURE = types.void(*_PLACE)
+FUNCTION_TYPES = (
+    types.FunctionType(LAWS_SIGNATURE),
+    types.FunctionType(SETTLE_SIGNATURE),
+)
+
+
+@cache
+def compose(kinds: tuple[type[Effect], ...]) -> tuple[Laws, Settle]:
+    """Compile the functions for a set of effects given in order of evaluation."""
+    links = _links(kinds)
+    driving = links[Stage.COMMAND] + links[Stage.ACTUATOR]
+    return _compile_laws(links, driving), _compile_settle(driving)
+
+
+def _links(kinds: tuple[type[Effect], ...]) -> dict[Stage, tuple[_Link, ...]]:
+    links: dict[Stage, tuple[_Link, ...]] = dict.fromkeys(Stage, ())
+    first, state = BODY_PARAMETERS, 0
+    for kind in kinds:
+        last, last_state = first + len(kind.specs()), state + kind.states
+        link = _Link(kind.kernel, kind.update, first, last, state, last_state)
+        links[kind.stage] += (link,)
+        first, state = last, last_state
+    return links
+
+
+def _compile_laws(links: dict[Stage, tuple[_Link, ...]], driving: tuple[_Link, ...]) -> Laws:
+    drive, rub = _chain(driving), _chain(links[Stage.WHEEL_FRICTION])
+    push, weigh = _chain(links[Stage.BODY_LOAD]), _chain(links[Stage.INERTIA])
+
+    @njit(LAWS_SIGNATURE, nogil=True, error_model='numpy')
+    def laws(params, states, at, inputs, right, left):  # type: ignore[no-untyped-def]
+        traction = drive(params, states, at, Traction(inputs.right, inputs.left))
+        load = push(params, states, at, Load(inputs.force, inputs.torque, 0.0, 0.0, 0.0))
+        balance = weigh(params, states, at, nominal_balance(params, traction, load))
+        law_right = rub(params, states, at, nominal_law(params, 1.0, right))
+        law_left = rub(params, states, at, nominal_law(params, -1.0, left))
+        return gather(params, traction, load, balance, law_right, law_left)
+
+    return laws
+
+
+def _compile_settle(driving: tuple[_Link, ...]) -> Settle:
+    chain = _settle_chain(driving)
+
+    @njit(SETTLE_SIGNATURE, nogil=True, error_model='numpy')
+    def settle(params, states, at, inputs):  # type: ignore[no-untyped-def]
+        chain(params, states, at, Traction(inputs.right, inputs.left))
+
+    return settle
+
+
+def _chain(links: tuple[_Link, ...]) -> Any:
+    """Return a function that hands the value through every kernel in turn."""
+    if not links:
+        return _unchanged
+    kernel, _, first, last, first_state, last_state = links[-1]
+    count, state_count, before = last - first, last_state - first_state, _chain(links[:-1])
+
+    @compiled
+    def chain(params, states, at, value):  # type: ignore[no-untyped-def]
+        own = to_fixed_tuple(params[first:last], count)
+        state = to_fixed_tuple(states[first_state:last_state], state_count)
+        return kernel(at, before(params, states, at, value), *state, *own)
+
+    return chain
+
+
+@compiled
+def _unchanged(params, states, at, value):  # type: ignore[no-untyped-def]
+    return value
+
+
+def _settle_chain(links: tuple[_Link, ...]) -> Any:
+    """Return a function that writes the states reached after `at.elapsed` seconds."""
+    if not any(link.update for link in links):
+        return _unchanged
+    *_, (_, update, first, last, first_state, last_state) = links
+    count, state_count = last - first, last_state - first_state
+    before, settle_before = _chain(links[:-1]), _settle_chain(links[:-1])
+    if update is None:
+        return settle_before
+
+    @compiled
+    def settle(params, states, at, value):  # type: ignore[no-untyped-def]
+        own = to_fixed_tuple(params[first:last], count)
+        state = to_fixed_tuple(states[first_state:last_state], state_count)
+        fresh = update(at, before(params, states, at, value), *state, *own)
+        settle_before(params, states, at, value)
+        for index in range(state_count):
+            states[first_state + index] = fresh[index]
+        return value
+
+    return settle

@@ -1,0 +1,241 @@
+"""Dry contacts of the robot: two wheels and turning. Which stick, which slide, with what force.
+
+Friction is set-valued at speed 0, so each contact has a mode: 0 sticks, +1 or -1 slides that way.
+All contacts are resolved together, since a stuck wheel carries what reaches it through the body:
+with A = 1/m + b²/J, the reaction of a stuck left wheel is not F_L but F_L + (B/A) n_R.
+"""
+
+from math import exp, inf
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diffbot_sim.physics.compiled import compiled
+from diffbot_sim.physics.composition import Laws
+from diffbot_sim.physics.instant import Inputs, Instant
+from diffbot_sim.physics.stages import Motion
+from diffbot_sim.physics.vector import SPEED_LEFT, SPEED_RIGHT, evaluate
+from diffbot_sim.records import Array
+
+Modes = NDArray[np.int64]
+RIGHT, LEFT, YAW = range(3)
+# The mode of turning where there is no dry yaw friction: neither sticks nor has a limit.
+FREE = 2
+
+
+class Reaction(NamedTuple):
+    """Friction of the wheels [N, positive opposes forward motion] and of turning [N·m]."""
+
+    right: float
+    left: float
+    yaw: float
+
+
+class Range(NamedTuple):
+    """What wheels, and yaw friction, allow a resting robot's f_R - f_L to be [N]."""
+
+    wheels_low: float
+    wheels_high: float
+    yaw_low: float
+    yaw_high: float
+
+
+@compiled
+def instant_at(
+    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, modes: Modes
+) -> Instant:
+    """Evaluate the forces for wheels that roll as their modes say."""
+    return evaluate(laws, params, states, at, inputs, float(modes[RIGHT]), float(modes[LEFT]))
+
+
+@compiled
+def sliding_reaction(at: Motion, now: Instant, modes: Modes) -> Reaction:
+    """Return the friction forces while at least one wheel rolls: (13), and what sticking takes."""
+    right, left, yaw = 0.0, 0.0, modes[YAW] * now.dry_torque
+    if modes[RIGHT] != 0:
+        along = modes[RIGHT] * at.speed_right
+        size = now.coulomb_right + now.excess_right * exp(-now.stribeck_right * along)
+        right = modes[RIGHT] * (size + now.viscous_right * along)
+    if modes[LEFT] != 0:
+        along = modes[LEFT] * at.speed_left
+        size = now.coulomb_left + now.excess_left * exp(-now.stribeck_left * along)
+        left = modes[LEFT] * (size + now.viscous_left * along)
+    b, mass, inertia = now.b, now.mass, now.inertia
+    mobility = 1.0 / mass + b * b / inertia
+    if modes[RIGHT] == 0:
+        spin = b * (now.torque + b * left - yaw) / inertia
+        right = ((now.force - left) / mass + spin) / mobility
+    elif modes[LEFT] == 0:
+        spin = b * (now.torque - b * right - yaw) / inertia
+        left = ((now.force - right) / mass - spin) / mobility
+    elif modes[YAW] == 0:
+        yaw = now.torque - b * (right - left)
+    return Reaction(right, left, yaw)
+
+
+@compiled
+def accelerations(now: Instant, reaction: Reaction, modes: Modes) -> tuple:
+    """Return dv_R/dt and dv_L/dt [m/s²], exactly 0.0 for a wheel that sticks."""
+    along = (now.force - (reaction.right + reaction.left)) / now.mass
+    if modes[YAW] == 0:
+        return along, along
+    difference = reaction.right - reaction.left
+    about = now.b * ((now.torque - now.b * difference - reaction.yaw) / now.inertia)
+    right = 0.0 if modes[RIGHT] == 0 else along + about
+    left = 0.0 if modes[LEFT] == 0 else along - about
+    return right, left
+
+
+@compiled
+def reaction_at(
+    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, modes: Modes
+) -> Reaction:
+    """Return the friction forces of any pattern of sticking and sliding."""
+    now = instant_at(laws, params, states, at, inputs, modes)
+    if modes[RIGHT] == 0 and modes[LEFT] == 0:
+        return _reaction_at_rest(laws, params, states, at, inputs, now)
+    return sliding_reaction(at, now, modes)
+
+
+@compiled
+def slack(
+    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, modes: Modes
+) -> float:
+    """Return how far the stuck contacts are from breaking away; negative: they must."""
+    if modes[RIGHT] != 0 and modes[LEFT] != 0 and modes[YAW] != 0:
+        return inf
+    now = instant_at(laws, params, states, at, inputs, modes)
+    if modes[RIGHT] == 0 and modes[LEFT] == 0:
+        rest = _rest_range(laws, params, states, at, inputs, now)
+        apart = min(rest.wheels_high - rest.yaw_low, rest.yaw_high - rest.wheels_low)
+        return min(apart, rest.wheels_high - rest.wheels_low)
+    reaction = sliding_reaction(at, now, modes)
+    if modes[RIGHT] == 0:
+        pushed = evaluate(
+            laws, params, states, at, inputs, _direction(reaction.right), float(modes[LEFT])
+        )
+        return pushed.static_right - abs(reaction.right)
+    if modes[LEFT] == 0:
+        pushed = evaluate(
+            laws, params, states, at, inputs, float(modes[RIGHT]), _direction(reaction.left)
+        )
+        return pushed.static_left - abs(reaction.left)
+    return now.dry_torque - abs(reaction.yaw)
+
+
+@compiled
+def release(
+    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, modes: Modes
+) -> bool:
+    """Let the contacts slide whose limit is exceeded; tell whether anything changed."""
+    if modes[RIGHT] == 0 and modes[LEFT] == 0:
+        return _break_rest(laws, params, states, at, inputs, modes)
+    reaction = sliding_reaction(at, instant_at(laws, params, states, at, inputs, modes), modes)
+    if modes[RIGHT] == 0:
+        modes[RIGHT] = np.sign(reaction.right)
+    elif modes[LEFT] == 0:
+        modes[LEFT] = np.sign(reaction.left)
+    else:
+        modes[YAW] = np.sign(reaction.yaw)
+    return True
+
+
+@compiled
+def arrive(z: Array, modes: Modes) -> None:
+    """Stop, exactly, the contacts that have reached speed 0 or just passed it."""
+    right = modes[RIGHT] != 0 and modes[RIGHT] * z[SPEED_RIGHT] <= 0.0
+    left = modes[LEFT] != 0 and modes[LEFT] * z[SPEED_LEFT] <= 0.0
+    turning = z[SPEED_RIGHT] - z[SPEED_LEFT]
+    yaw = abs(modes[YAW]) == 1 and modes[YAW] * turning <= 0.0
+    if right:
+        z[SPEED_RIGHT], modes[RIGHT] = 0.0, 0
+    if left:
+        z[SPEED_LEFT], modes[LEFT] = 0.0, 0
+    if yaw and not (right or left):
+        common = 0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT])
+        z[SPEED_RIGHT], z[SPEED_LEFT], modes[YAW] = common, common, 0
+
+
+@compiled
+def modes_of(z: Array, dry_torque: float, modes: Modes) -> None:
+    """Set the modes that speeds imply: what stands still is taken to stick."""
+    modes[RIGHT] = np.sign(z[SPEED_RIGHT])
+    modes[LEFT] = np.sign(z[SPEED_LEFT])
+    turning = np.sign(z[SPEED_RIGHT] - z[SPEED_LEFT])
+    modes[YAW] = turning if dry_torque > 0.0 else FREE
+
+
+@compiled
+def _direction(towards: float) -> float:
+    return 1.0 if towards >= 0.0 else -1.0
+
+
+@compiled
+def _rest_range(
+    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, now: Instant
+) -> Range:
+    forward = evaluate(laws, params, states, at, inputs, 1.0, 1.0)
+    backward = evaluate(laws, params, states, at, inputs, -1.0, -1.0)
+    force = now.force
+    return Range(
+        max(-2.0 * backward.static_right - force, force - 2.0 * forward.static_left),
+        min(2.0 * forward.static_right - force, force + 2.0 * backward.static_left),
+        (now.torque - now.dry_torque) / now.b,
+        (now.torque + now.dry_torque) / now.b,
+    )
+
+
+@compiled
+def _reaction_at_rest(
+    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, now: Instant
+) -> Reaction:
+    """Share a resting robot's torque between wheels and yaw friction in the ratio of their limits.
+
+    Three dry contacts hold two motions, so the split is a choice wherever yaw friction exists.
+    """
+    rest = _rest_range(laws, params, states, at, inputs, now)
+    wheels = rest.wheels_high - rest.wheels_low
+    yaw = rest.yaw_high - rest.yaw_low
+    share = wheels / (wheels + yaw) if yaw > 0.0 and wheels > 0.0 else 1.0
+    low, high = max(rest.wheels_low, rest.yaw_low), min(rest.wheels_high, rest.yaw_high)
+    difference = min(max(share * now.torque / now.b, low), high)
+    right = 0.5 * (now.force + difference)
+    left = 0.5 * (now.force - difference)
+    return Reaction(right, left, now.torque - now.b * difference)
+
+
+@compiled
+def _break_rest(
+    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, modes: Modes
+) -> bool:
+    """Find how a resting robot starts to move: the one pattern whose motion agrees with itself.
+
+    Dry friction is maximally dissipative, so the pattern exists and is unique but for ties;
+    patterns that keep a contact stuck are tried first.
+    """
+    trial = np.empty(3, np.int64)
+    for stuck in (1, 0):
+        for right in (1, -1, 0):
+            for left in (1, -1, 0):
+                for yaw in (1, -1, 0) if modes[YAW] != FREE else (FREE, FREE, FREE):
+                    trial[:] = (right, left, yaw)
+                    kept = (right == 0) + (left == 0) + (yaw == 0)
+                    if kept == stuck and _consistent(laws, params, states, at, inputs, trial):
+                        modes[:] = trial
+                        return True
+    return False
+
+
+@compiled
+def _consistent(
+    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, modes: Modes
+) -> bool:
+    """Tell whether contacts at speed 0 accelerate the way that their modes say."""
+    now = instant_at(laws, params, states, at, inputs, modes)
+    right, left = accelerations(now, sliding_reaction(at, now, modes), modes)
+    moves = (modes[RIGHT] == 0 or modes[RIGHT] * right > 0.0) and (
+        modes[LEFT] == 0 or modes[LEFT] * left > 0.0
+    )
+    turns = abs(modes[YAW]) != 1 or modes[YAW] * (right - left) > 0.0
+    return moves and turns and slack(laws, params, states, at, inputs, modes) >= 0.0

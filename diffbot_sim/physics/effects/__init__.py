@@ -1,0 +1,28 @@
+"""The library of effects: one file each, discovered, never listed."""
+
+from functools import cache
+from importlib import import_module
+from importlib.metadata import entry_points
+from pkgutil import iter_modules
+
+from diffbot_sim.physics.effects.effect import Effect
+
+ENTRY_POINT_GROUP = 'diffbot_sim.effects'
+
+__all__ = ['Effect', 'library']
+
+
+@cache
+def library() -> dict[str, type[Effect]]:
+    """Return every known effect by name, in order of evaluation: stage, then name.
+
+    Reads the files of this folder and the entry points of other installed packages.
+    """
+    found: set[type[Effect]] = {item.load() for item in entry_points(group=ENTRY_POINT_GROUP)}
+    for module in iter_modules(__path__, __name__ + '.'):
+        found.update(
+            kind
+            for kind in vars(import_module(module.name)).values()
+            if isinstance(kind, type) and issubclass(kind, Effect) and kind is not Effect
+        )
+    return {kind.name: kind for kind in sorted(found, key=lambda kind: (kind.stage, kind.name))}

@@ -1,0 +1,89 @@
+"""All that bears on the robot at one instant: eqs. (7), (11) with the effects put in."""
+
+from typing import NamedTuple
+
+from diffbot_sim.physics.compiled import compiled
+from diffbot_sim.physics.stages import Balance, Law, Load, Traction
+from diffbot_sim.records import Array
+
+
+class Inputs(NamedTuple):
+    """What acts from outside: commanded traction [N], and a push on the body [N, N·m]."""
+
+    right: float
+    left: float
+    force: float
+    torque: float
+
+
+class Instant(NamedTuple):
+    """Inertia and load of the body without wheel friction, and the friction laws of the wheels.
+
+    M dv/dt = force - f_R - f_L and J dω/dt = torque - b (f_R - f_L) - f_yaw, |f_yaw| up to
+    dry_torque. traction_*: forces acting on the wheels; the rest as in stages.Law. SI units.
+    """
+
+    mass: float
+    inertia: float
+    b: float
+    force: float
+    torque: float
+    dry_torque: float
+    traction_right: float
+    traction_left: float
+    static_right: float
+    coulomb_right: float
+    excess_right: float
+    viscous_right: float
+    stribeck_right: float
+    static_left: float
+    coulomb_left: float
+    excess_left: float
+    viscous_left: float
+    stribeck_left: float
+
+
+@compiled
+def nominal_law(params: Array, side: float, direction: float) -> Law:
+    """Return the friction law that both wheels share, for one of them."""
+    return Law(side, direction, params[4], params[5], params[6], params[7], params[8])
+
+
+@compiled
+def nominal_balance(params: Array, traction: Traction, load: Load) -> Balance:
+    """Put traction and load on the rigid body of eqs. (7) and (11)."""
+    return Balance(
+        params[0],
+        params[1],
+        (traction.right + traction.left) + load.force,
+        (traction.right - traction.left) * params[2] + load.torque,
+        load.gravity_x,
+        load.gravity_y,
+    )
+
+
+@compiled
+def gather(
+    params: Array, traction: Traction, load: Load, balance: Balance, right: Law, left: Law
+) -> Instant:
+    """Bring the stages' results together."""
+    body = (balance.mass, balance.inertia, params[2])
+    force = balance.force + balance.mass * balance.gravity_x
+    return Instant(
+        *body,
+        force,
+        balance.torque,
+        load.dry_torque,
+        traction.right,
+        traction.left,
+        right.static,
+        right.coulomb,
+        right.excess,
+        right.viscous,
+        right.stribeck,
+        left.static,
+        left.coulomb,
+        left.excess,
+        left.viscous,
+        left.stribeck,
+    )

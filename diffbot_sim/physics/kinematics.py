@@ -1,0 +1,30 @@
+"""Kinematics of the differential drive: eqs. (2)-(5)."""
+
+import numpy as np
+
+from diffbot_sim.records import Array
+
+
+def body_twist(
+    speed_right: float, speed_left: float, half_separation: float
+) -> tuple[float, float]:
+    """Return v [m/s] and ω [rad/s] of the axle midpoint from wheel speeds [m/s]: (4), (2)."""
+    v = 0.5 * (speed_right + speed_left)
+    omega = (speed_right - speed_left) / (2.0 * half_separation)
+    return v, omega
+
+
+def wheel_speeds(v: float, omega: float, half_separation: float) -> tuple[float, float]:
+    """Return the wheel speeds [m/s], right and left: the inverse of (2) and (4)."""
+    return v + half_separation * omega, v - half_separation * omega
+
+
+def turning_radius(speed_right: Array, speed_left: Array, half_separation: float) -> Array:
+    """Return R_o [m] of the arc about the ICC, inf when driving straight.
+
+    Eq. (3) with the sign that follows from (2); the printed denominator has it reversed.
+    """
+    difference = np.asarray(speed_right, float) - speed_left
+    total = np.asarray(speed_right, float) + speed_left
+    with np.errstate(divide='ignore', invalid='ignore'):
+        return np.where(difference == 0.0, np.inf, half_separation * total / difference)

@@ -1,0 +1,152 @@
+"""A live robot that a node steps: the same compiled physics, one tick at a time."""
+
+import numpy as np
+from numba import types
+
+from diffbot_sim.physics.compiled import entry
+from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
+from diffbot_sim.physics.instant import Inputs
+from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.simulation import (
+    MATRIX,
+    OUTPUT_SIZE,
+    WORK_ROWS,
+    initial_modes,
+    initial_vector,
+    observe,
+)
+from diffbot_sim.physics.stages import Traction
+from diffbot_sim.physics.state import State
+from diffbot_sim.physics.stepper import advance
+from diffbot_sim.physics.vector import STATE_SIZE
+
+INTEGERS = types.Array(types.int64, 1, 'C')
+
+
+class Plant:
+    """A robot in motion; starts at rest at the origin at time 0.
+
+    Steps of the integrator are at most max_step [s] long.
+    """
+
+    def __init__(self, model: Model, max_step: float = 1e-3, start: State | None = None) -> None:
+        self._max_step = max_step
+        self._model = model
+        self.reset(start)
+
+    def reset(self, start: State | None = None) -> None:
+        """Put the robot at a start (rest at the origin) and time 0."""
+        self.time = 0.0
+        self._force = (0.0, 0.0)
+        self._z = initial_vector(self._model, start or State())
+        self._install(self._model)
+
+    @property
+    def model(self) -> Model:
+        """What is simulated; a new model takes over pose and speed, its effects start afresh."""
+        return self._model
+
+    @model.setter
+    def model(self, model: Model) -> None:
+        twist = self.twist
+        self._z = np.concatenate([self._z[:5], initial_vector(model, State(0, 0, 0, *twist))[5:]])
+        self._install(model)
+
+    def step(self, force_right: float, force_left: float, duration: float) -> None:
+        """Hold forces [N] on the wheels for a duration [s]."""
+        self._force = (force_right, force_left)
+        self._run(duration)
+        self.time += duration
+
+    def command(self, force_right: float, force_left: float) -> None:
+        """Take forces [N] without advancing, so that friction shows what they meet."""
+        self._force = (force_right, force_left)
+        self._run(0.0)
+
+    @property
+    def pose(self) -> tuple[float, float, float]:
+        """X [m], y [m] and heading [rad, not wrapped]."""
+        return float(self._row[0]), float(self._row[1]), float(self._row[2])
+
+    @property
+    def wheel_angle(self) -> tuple[float, float]:
+        """Angles of the right and left wheel [rad]."""
+        return self._pair(3)
+
+    @property
+    def wheel_speed(self) -> tuple[float, float]:
+        """Rim speeds of the right and left wheel [m/s]."""
+        return self._pair(5)
+
+    @property
+    def twist(self) -> tuple[float, float]:
+        """V [m/s] and ω [rad/s]."""
+        return self._pair(7)
+
+    @property
+    def traction(self) -> tuple[float, float]:
+        """Forces acting on the right and left wheel [N], after any actuator effect."""
+        return self._pair(9)
+
+    @property
+    def friction(self) -> tuple[float, float]:
+        """F_fr of the right and left wheel [N]: eq. (13), positive opposes forward motion."""
+        return self._pair(11)
+
+    def _pair(self, column: int) -> tuple[float, float]:
+        return float(self._row[column]), float(self._row[column + 1])
+
+    def _install(self, model: Model) -> None:
+        self._model = model
+        self._functions = compose(tuple(type(effect) for effect in model.effects))
+        self._params = model.pack()
+        held = Traction(*self._force)
+        self._states = np.array([s for e in model.effects for s in e.initial_state(held)])
+        self._modes = np.zeros(3, np.int64)
+        self._row = np.empty(OUTPUT_SIZE)
+        self._work = np.empty((WORK_ROWS, STATE_SIZE))
+        _begin(*self._arguments())
+        self._run(0.0)
+
+    def _run(self, duration: float) -> None:
+        _step(*self._arguments(), duration, self._max_step, self._work, self._row)
+
+    def _arguments(self) -> tuple[object, ...]:
+        arrays = (self._params, self._states, self._z, self._modes)
+        return (*self._functions, *arrays, *self._force, self.time)
+
+
+_SYSTEM = (*FUNCTION_TYPES, ARRAY, ARRAY, ARRAY, INTEGERS, *(types.float64,) * 3)
+
+
+@entry(types.void(*_SYSTEM))
+def _begin(  # type: ignore[no-untyped-def]
+    laws, settle, params, states, z, modes, right, left, time
+) -> None:
+    """Set the modes of a robot whose history is unknown."""
+    initial_modes(laws, params, states, z, modes, Inputs(right, left, 0.0, 0.0), time)
+
+
+@entry(types.void(*_SYSTEM, types.float64, types.float64, MATRIX, ARRAY))
+def _step(  # type: ignore[no-untyped-def]
+    laws,
+    settle,
+    params,
+    states,
+    z,
+    modes,
+    right,
+    left,
+    time,
+    duration,
+    max_step,
+    work,
+    row,
+) -> None:
+    """Advance under held forces and observe the result."""
+    inputs = Inputs(right, left, 0.0, 0.0)
+    count = int(np.ceil(duration / max_step - 1e-6))
+    for i in range(count):
+        step = duration / count
+        advance(laws, settle, params, states, z, modes, inputs, time + i * step, step, work)
+    observe(laws, params, states, z, modes, inputs, time + duration, row)

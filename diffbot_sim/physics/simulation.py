@@ -1,0 +1,195 @@
+"""Drives a model with recorded or prescribed forces; the only clock is the stamps it is given."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import types
+
+from diffbot_sim.physics import contact
+from diffbot_sim.physics.compiled import compiled, entry
+from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, Laws, Settle, compose
+from diffbot_sim.physics.contact import Modes, instant_at
+from diffbot_sim.physics.instant import Inputs
+from diffbot_sim.physics.kinematics import wheel_speeds
+from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.stages import Traction
+from diffbot_sim.physics.state import State
+from diffbot_sim.physics.stepper import advance, update_contacts
+from diffbot_sim.physics.vector import STATE_SIZE, evaluate, motion_at
+from diffbot_sim.records import Array, Commands, Trajectory
+
+MATRIX = types.Array(types.float64, 2, 'C')
+WORK_ROWS = 2
+# Columns of the table that drive() fills after the state z: twist, traction, friction.
+OUTPUT_SIZE = STATE_SIZE + 6
+
+
+def simulate(
+    model: Model,
+    commands: Commands,
+    times: Array,
+    start: State | None = None,
+    max_step: float = 5e-3,
+) -> Trajectory:
+    """Return the free-running motion at the given stamps.
+
+    times [s], shape (k,), increasing; the run starts at times[0] from `start` (rest at the
+    origin). Each command is held until the next; before the first one the force is 0.
+    Steps are at most max_step [s] long, cut at stamps and command changes.
+    """
+    functions = compose(tuple(type(effect) for effect in model.effects))
+    z = initial_vector(model, start or State())
+    out = np.empty((len(times), OUTPUT_SIZE))
+    _simulate(
+        *functions,
+        model.pack(),
+        initial_states(model, commands, float(times[0])),
+        z,
+        np.ascontiguousarray(commands.time),
+        np.ascontiguousarray(commands.force),
+        max_step,
+        np.ascontiguousarray(times),
+        out,
+    )
+    return Trajectory(
+        time=times,
+        pose=out[:, 0:3],
+        wheel_angle=out[:, 3:5],
+        wheel_speed=out[:, 5:7],
+        twist=out[:, 7:9],
+        traction=out[:, 9:11],
+        friction=out[:, 11:13],
+    )
+
+
+def initial_vector(model: Model, start: State) -> Array:
+    """Return the state vector z of a start: pose, wheel angles 0, wheel speeds."""
+    right, left = wheel_speeds(start.v, start.omega, model.robot.half_separation)
+    return np.array([start.x, start.y, start.heading, 0.0, 0.0, right, left])
+
+
+def initial_states(model: Model, commands: Commands, time: float) -> Array:
+    """Return the effect states of a robot that has had its present command for long."""
+    last = int(np.searchsorted(commands.time, time, side='right')) - 1
+    force = commands.force[last] if last >= 0 else (0.0, 0.0)
+    traction = Traction(float(force[0]), float(force[1]))
+    return np.array([s for effect in model.effects for s in effect.initial_state(traction)])
+
+
+@compiled
+def initial_modes(
+    laws: Laws, params: Array, states: Array, z: Array, modes: Modes, inputs: Inputs, time: float
+) -> None:
+    """Set the modes of a robot whose history is unknown."""
+    at = motion_at(params, z, time, 0.0)
+    contact.modes_of(z, evaluate(laws, params, states, at, inputs, 1.0, 1.0).dry_torque, modes)
+
+
+class Drive(NamedTuple):
+    """Commands as compiled code reads them: stamps [s], forces [N] (n, 2), longest step [s]."""
+
+    time: Array
+    force: Array
+    max_step: float
+
+
+@compiled
+def command_at(drive: Drive, current: int, time: float) -> int:
+    """Return the index of the command in force at a time, counted on from an earlier one."""
+    while current + 1 < len(drive.time) and drive.time[current + 1] <= time:
+        current += 1
+    return current
+
+
+@compiled
+def inputs_of(drive: Drive, current: int, force: float, torque: float) -> Inputs:
+    """Return the inputs while a command is in force (-1: none yet) and the body is pushed."""
+    if current < 0:
+        return Inputs(0.0, 0.0, force, torque)
+    return Inputs(drive.force[current, 0], drive.force[current, 1], force, torque)
+
+
+@compiled
+def advance_held(
+    laws: Laws,
+    settle: Settle,
+    params: Array,
+    states: Array,
+    z: Array,
+    modes: Modes,
+    drive: Drive,
+    current: int,
+    push: tuple[float, float],
+    time: float,
+    until: float,
+    work: Array,
+) -> int:
+    """Advance from time to until [s], each command held until the next; return the last one.
+
+    push: a force [N] along x and a torque [N·m] that act on the body all the while.
+    """
+    while time < until:
+        current = command_at(drive, current, time)
+        end = until
+        if current + 1 < len(drive.time):
+            end = min(until, drive.time[current + 1])
+        inputs = inputs_of(drive, current, push[0], push[1])
+        count = max(1, int(np.ceil((end - time) / drive.max_step - 1e-6)))
+        step = (end - time) / count
+        for i in range(count):
+            advance(laws, settle, params, states, z, modes, inputs, time + i * step, step, work)
+        time = end
+    return command_at(drive, current, until)
+
+
+@compiled
+def observe(
+    laws: Laws,
+    params: Array,
+    states: Array,
+    z: Array,
+    modes: Modes,
+    inputs: Inputs,
+    time: float,
+    row: Array,
+) -> None:
+    """Fill one row of output: z, twist, traction, friction, all at this moment."""
+    update_contacts(laws, params, states, z, modes, inputs, time)
+    at = motion_at(params, z, time, 0.0)
+    reaction = contact.reaction_at(laws, params, states, at, inputs, modes)
+    now = instant_at(laws, params, states, at, inputs, modes)
+    row[:STATE_SIZE] = z
+    row[7], row[8] = at.v, at.omega
+    row[9], row[10] = now.traction_right, now.traction_left
+    row[11], row[12] = reaction.right, reaction.left
+
+
+@entry(
+    types.void(*FUNCTION_TYPES, ARRAY, ARRAY, ARRAY, ARRAY, MATRIX, types.float64, ARRAY, MATRIX)
+)
+def _simulate(  # type: ignore[no-untyped-def]
+    laws, settle, params, states, z, command_time, force, max_step, times, out
+) -> None:
+    """Simulate from times[0] and fill a row of output at each stamp."""
+    drive = Drive(command_time, force, max_step)
+    modes, work = np.ones(3, np.int64), np.empty((WORK_ROWS, STATE_SIZE))
+    current, push = command_at(drive, -1, times[0]), (0.0, 0.0)
+    initial_modes(laws, params, states, z, modes, inputs_of(drive, current, 0.0, 0.0), times[0])
+    for k, time in enumerate(times):
+        if k > 0:
+            current = advance_held(
+                laws,
+                settle,
+                params,
+                states,
+                z,
+                modes,
+                drive,
+                current,
+                push,
+                times[k - 1],
+                time,
+                work,
+            )
+        inputs = inputs_of(drive, current, 0.0, 0.0)
+        observe(laws, params, states, z, modes, inputs, time, out[k])

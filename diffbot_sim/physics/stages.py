@@ -1,0 +1,118 @@
+"""What effects see and change: the values handed along the five stages of one instant.
+
+A kernel is a pure compiled function `kernel(at, value, *state, *parameters) -> value`, where
+`value` is the tuple of its stage. Order: command, actuator, wheel friction, body load, inertia.
+"""
+
+from enum import IntEnum
+from typing import Any, NamedTuple
+
+from numba import types
+
+from diffbot_sim.physics.compiled import compiled
+
+
+class Stage(IntEnum):
+    """Where an effect acts; effects are evaluated in this order."""
+
+    COMMAND = 0
+    ACTUATOR = 1
+    WHEEL_FRICTION = 2
+    BODY_LOAD = 3
+    INERTIA = 4
+
+
+class Motion(NamedTuple):
+    """The instant: time since the start of the run, pose and motion of robot and wheels.
+
+    time [s]; elapsed [s] since effect states were last updated; x, y [m], heading [rad];
+    v [m/s], omega [rad/s]; angle_* [rad] and speed_* [m/s] of each wheel.
+    """
+
+    time: float
+    elapsed: float
+    x: float
+    y: float
+    heading: float
+    v: float
+    omega: float
+    angle_right: float
+    angle_left: float
+    speed_right: float
+    speed_left: float
+
+
+class Traction(NamedTuple):
+    """Stages COMMAND and ACTUATOR: the force that drives each wheel [N]."""
+
+    right: float
+    left: float
+
+
+class Law(NamedTuple):
+    """Stage WHEEL_FRICTION: eq. (13) for one wheel in one direction of rolling.
+
+    side is +1 for the right wheel and -1 for the left; direction is +1 forward, -1 backward.
+    |F_fr| = coulomb + excess·exp(-stribeck·|v|) + viscous·|v| while rolling, and at most
+    static at rest; static, coulomb and excess [N], viscous [N·s/m], stribeck [s/m].
+    """
+
+    side: float
+    direction: float
+    static: float
+    coulomb: float
+    excess: float
+    viscous: float
+    stribeck: float
+
+
+class Load(NamedTuple):
+    """Stage BODY_LOAD: what pushes the body besides the wheels.
+
+    force [N] along the robot's x axis, torque [N·m] about the yaw axis, dry_torque [N·m]:
+    limit of dry friction against turning; gravity_* [m/s²] along the robot's x and y axes.
+    """
+
+    force: float
+    torque: float
+    dry_torque: float
+    gravity_x: float
+    gravity_y: float
+
+
+class Balance(NamedTuple):
+    """Stage INERTIA: dv/dt = force/mass + gravity_x, dω/dt = torque/inertia, at the axle."""
+
+    mass: float
+    inertia: float
+    force: float
+    torque: float
+    gravity_x: float
+    gravity_y: float
+
+
+def numba_type(value: type[NamedTuple]) -> Any:  # type: ignore[valid-type]
+    """Return the compiled type of one of the tuples above."""
+    return types.NamedUniTuple(types.float64, len(value._fields), value)
+
+
+@compiled
+def scaled(law: Law, dry: float, viscous: float) -> Law:
+    """Scale the dry and the viscous part of a friction law."""
+    return Law(
+        law.side,
+        law.direction,
+        law.static * dry,
+        law.coulomb * dry,
+        law.excess * dry,
+        law.viscous * viscous,
+        law.stribeck,
+    )
+
+
+@compiled
+def pushed(load: Load, force: float, torque: float) -> Load:
+    """Add a force [N] along x and a torque [N·m] to a load."""
+    return Load(
+        load.force + force, load.torque + torque, load.dry_torque, load.gravity_x, load.gravity_y
+    )

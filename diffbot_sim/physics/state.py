@@ -1,0 +1,14 @@
+"""Where a robot is and how it moves at one moment."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class State:
+    """Pose [m, m, rad] and twist [m/s, rad/s] of the axle midpoint."""
+
+    x: float = 0.0
+    y: float = 0.0
+    heading: float = 0.0
+    v: float = 0.0
+    omega: float = 0.0

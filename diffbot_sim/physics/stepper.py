@@ -1,0 +1,228 @@
+"""Fourth-order Runge-Kutta between events; stops and breakaways are located inside the step.
+
+While no contact changes between sticking and sliding the flow is smooth, and one classical
+step is taken. A step in which a wheel (or dry yaw friction) reaches speed 0, or a stuck contact
+exceeds its limit, is cut at that moment; so the method's order holds through stick-slip motion.
+"""
+
+from math import cos, inf, sin
+
+from diffbot_sim.physics import contact
+from diffbot_sim.physics.compiled import compiled
+from diffbot_sim.physics.composition import Laws, Settle
+from diffbot_sim.physics.contact import FREE, LEFT, RIGHT, YAW, Modes, instant_at
+from diffbot_sim.physics.instant import Inputs
+from diffbot_sim.physics.vector import (
+    SPEED_LEFT,
+    SPEED_RIGHT,
+    STATE_SIZE,
+    motion_at,
+)
+from diffbot_sim.records import Array
+
+# An event is placed to this fraction of the step.
+LOCATION = 1e-11
+# Events in one step beyond this many are grazing contacts; they are left to stick.
+MOST_EVENTS = 64
+
+
+@compiled
+def advance(
+    laws: Laws,
+    settle: Settle,
+    params: Array,
+    states: Array,
+    z: Array,
+    modes: Modes,
+    inputs: Inputs,
+    time: float,
+    duration: float,
+    work: Array,
+) -> None:
+    """Move z, modes and effect states on by one step under constant inputs, events included."""
+    done, events = 0.0, 0
+    while done < duration:
+        held = events < MOST_EVENTS and update_contacts(
+            laws, params, states, z, modes, inputs, time + done
+        )
+        left = duration - done
+        taken, event = _step_to_event(
+            laws, params, states, z, modes, inputs, time + done, left, work, held
+        )
+        at = motion_at(params, z, time + done, taken)
+        settle(params, states, at, inputs)
+        z[:] = work[0]
+        if event:
+            contact.arrive(z, modes)
+        events += 1
+        done = duration if taken == left else done + taken
+
+
+@compiled
+def update_contacts(
+    laws: Laws,
+    params: Array,
+    states: Array,
+    z: Array,
+    modes: Modes,
+    inputs: Inputs,
+    time: float,
+) -> bool:
+    """Release what the present inputs tear loose; tell whether all stuck contacts now hold."""
+    if modes[RIGHT] != 0 and modes[LEFT] != 0 and modes[YAW] != 0:
+        return True
+    at = motion_at(params, z, time, 0.0)
+    for _ in range(4):
+        if contact.slack(laws, params, states, at, inputs, modes) >= 0.0:
+            return True
+        if not contact.release(laws, params, states, at, inputs, modes):
+            return False
+    return False
+
+
+@compiled
+def _step_to_event(
+    laws: Laws,
+    params: Array,
+    states: Array,
+    z: Array,
+    modes: Modes,
+    inputs: Inputs,
+    time: float,
+    duration: float,
+    work: Array,
+    held: bool,
+) -> tuple:
+    """Leave in work[0] the state after the step, or at its first event; return (taken, event)."""
+    high = duration
+    _runge_kutta(laws, params, states, z, modes, inputs, time, high, work)
+    after = _margin(laws, params, states, work[0], modes, inputs, time, high, held)
+    if after >= 0.0:
+        high = _turning_point(z, work, modes, duration)
+        if high >= duration:
+            return duration, False
+        _runge_kutta(laws, params, states, z, modes, inputs, time, high, work)
+        after = _margin(laws, params, states, work[0], modes, inputs, time, high, held)
+        if after >= 0.0:
+            _runge_kutta(laws, params, states, z, modes, inputs, time, duration, work)
+            return duration, False
+    low, side = 0.0, 0
+    before = max(_margin(laws, params, states, z, modes, inputs, time, 0.0, held), 0.0)
+    while high - low > LOCATION * duration:
+        # Illinois variant of regula falsi; halving where the secant does not help.
+        trial = high - after * (high - low) / (after - before)
+        if not low < trial < high:
+            trial = 0.5 * (low + high)
+        _runge_kutta(laws, params, states, z, modes, inputs, time, trial, work)
+        value = _margin(laws, params, states, work[0], modes, inputs, time, trial, held)
+        if value < 0.0:
+            high, after = trial, value
+            before = 0.5 * before if side < 0 else before
+            side = -1
+        else:
+            low, before = trial, value
+            after = 0.5 * after if side > 0 else after
+            side = 1
+    _runge_kutta(laws, params, states, z, modes, inputs, time, high, work)
+    return high, True
+
+
+@compiled
+def _margin(
+    laws: Laws,
+    params: Array,
+    states: Array,
+    z: Array,
+    modes: Modes,
+    inputs: Inputs,
+    time: float,
+    elapsed: float,
+    held: bool,
+) -> float:
+    """Return how far the contacts are from changing: negative once one has."""
+    margin = inf
+    if modes[RIGHT] != 0:
+        margin = modes[RIGHT] * z[SPEED_RIGHT]
+    if modes[LEFT] != 0:
+        margin = min(margin, modes[LEFT] * z[SPEED_LEFT])
+    if abs(modes[YAW]) == 1:
+        margin = min(margin, modes[YAW] * (z[SPEED_RIGHT] - z[SPEED_LEFT]))
+    if held and (modes[RIGHT] == 0 or modes[LEFT] == 0 or modes[YAW] == 0):
+        at = motion_at(params, z, time + elapsed, elapsed)
+        margin = min(margin, contact.slack(laws, params, states, at, inputs, modes))
+    return margin
+
+
+@compiled
+def _turning_point(z: Array, work: Array, modes: Modes, duration: float) -> float:
+    """Return when a contact may have touched speed 0 and come back within the step.
+
+    Judged by the parabola through both ends and the first slope; duration where there is none.
+    """
+    earliest = duration
+    for index, mode in enumerate(modes):
+        if mode == FREE:
+            continue
+        if index == YAW:
+            begin = mode * (z[SPEED_RIGHT] - z[SPEED_LEFT])
+            slope = mode * (work[1, SPEED_RIGHT] - work[1, SPEED_LEFT])
+            end = mode * (work[0, SPEED_RIGHT] - work[0, SPEED_LEFT])
+        else:
+            wheel = SPEED_RIGHT + index
+            begin, slope, end = mode * z[wheel], mode * work[1, wheel], mode * work[0, wheel]
+        bend = (end - begin - slope * duration) / duration**2
+        if begin > 0.0 > slope and bend > 0.0 and begin < slope * slope / (4.0 * bend):
+            earliest = min(earliest, -0.5 * slope / bend)
+    return earliest
+
+
+@compiled
+def _runge_kutta(
+    laws: Laws,
+    params: Array,
+    states: Array,
+    z: Array,
+    modes: Modes,
+    inputs: Inputs,
+    time: float,
+    h: float,
+    work: Array,
+) -> None:
+    """Leave in work[0] the state after the classical fourth-order step of h, in work[1] k1."""
+    half, probe = 0.5 * h, work[0]
+    probe[:] = z
+    k1 = _derivative(laws, params, states, probe, modes, inputs, time, 0.0)
+    for i in range(STATE_SIZE):
+        work[1, i] = k1[i]
+        probe[i] = z[i] + half * k1[i]
+    k2 = _derivative(laws, params, states, probe, modes, inputs, time, half)
+    for i in range(STATE_SIZE):
+        probe[i] = z[i] + half * k2[i]
+    k3 = _derivative(laws, params, states, probe, modes, inputs, time, half)
+    for i in range(STATE_SIZE):
+        probe[i] = z[i] + h * k3[i]
+    k4 = _derivative(laws, params, states, probe, modes, inputs, time, h)
+    for i in range(STATE_SIZE):
+        probe[i] = z[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i])
+
+
+@compiled
+def _derivative(
+    laws: Laws,
+    params: Array,
+    states: Array,
+    z: Array,
+    modes: Modes,
+    inputs: Inputs,
+    time: float,
+    elapsed: float,
+) -> tuple[float, ...]:
+    """Return dz/dt: eqs. (5), (7), (11) with friction (13), in the order of z."""
+    if modes[RIGHT] == 0 and modes[LEFT] == 0:
+        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    at = motion_at(params, z, time + elapsed, elapsed)
+    now = instant_at(laws, params, states, at, inputs, modes)
+    reaction = contact.sliding_reaction(at, now, modes)
+    right, left = contact.accelerations(now, reaction, modes)
+    dx, dy = at.v * cos(at.heading), at.v * sin(at.heading)
+    return dx, dy, at.omega, at.speed_right / params[3], at.speed_left / params[3], right, left

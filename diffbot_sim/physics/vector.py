@@ -1,0 +1,29 @@
+"""The state vector z that the stepper integrates, and what effects see of it."""
+
+from diffbot_sim.physics.compiled import compiled
+from diffbot_sim.physics.composition import Laws
+from diffbot_sim.physics.instant import Inputs, Instant
+from diffbot_sim.physics.stages import Motion
+from diffbot_sim.records import Array
+
+# Where things stand in z: pose, wheel angles [rad], wheel rim speeds [m/s].
+X, Y, HEADING, ANGLE_RIGHT, ANGLE_LEFT, SPEED_RIGHT, SPEED_LEFT = range(7)
+STATE_SIZE = 7
+
+
+@compiled
+def motion_at(params: Array, z: Array, time: float, elapsed: float) -> Motion:
+    """Gather what effects may look at."""
+    v = 0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT])
+    omega = (z[SPEED_RIGHT] - z[SPEED_LEFT]) / (2.0 * params[2])
+    pose = (z[X], z[Y], z[HEADING])
+    wheels = (z[ANGLE_RIGHT], z[ANGLE_LEFT], z[SPEED_RIGHT], z[SPEED_LEFT])
+    return Motion(time, elapsed, *pose, v, omega, *wheels)
+
+
+@compiled
+def evaluate(
+    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, right: float, left: float
+) -> Instant:
+    """Run the stages; right and left are the directions in which the wheels roll or are pushed."""
+    return laws(params, states, at, inputs, right, left)

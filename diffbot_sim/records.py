@@ -1,0 +1,61 @@
+"""Frozen records that travel between the rooms. SI units; wheel columns are [right, left]."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Commands:
+    """Wheel force commands, each held until the next one.
+
+    time: stamps [s], shape (n,), increasing.
+    force: traction forces [N], shape (n, 2), columns right and left.
+    """
+
+    time: Array
+    force: Array
+
+
+@dataclass(frozen=True)
+class Odometry:
+    """Measured motion.
+
+    time: stamps [s], shape (k,), increasing.
+    twist: linear [m/s] and angular [rad/s] velocity, shape (k, 2).
+    pose: x [m], y [m], yaw [rad, unwrapped], shape (k, 3); None where none was recorded.
+    """
+
+    time: Array
+    twist: Array
+    pose: Array | None = None
+
+
+@dataclass(frozen=True)
+class Run:
+    """One drive of one robot: what was commanded and what was measured."""
+
+    name: str
+    commands: Commands
+    odometry: Odometry
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """A simulated motion at given stamps.
+
+    time [s], shape (k,); twist [m/s, rad/s], pose [m, m, rad], wheel_angle [rad],
+    wheel_speed [m/s], traction and friction [N]: one row each stamp, wheels right then left.
+    friction is positive where it opposes forward motion: F_fr of eq. (13).
+    """
+
+    time: Array
+    twist: Array
+    pose: Array
+    wheel_angle: Array
+    wheel_speed: Array
+    traction: Array
+    friction: Array
