@@ -29,7 +29,7 @@ clean: ## remove all that make and colcon made
 	@$(or $(PYTHON),false) -c '$(SUITS)' 2>/dev/null || { echo >&2 'No usable Python: needs' \
 	  '3.10 to 3.13 with venv and pip (Debian: apt install python3-venv).' \
 	  'Name one with make PYTHON=/path/to/python3'; exit 1; }
-	@echo 'Making .venv with $(PYTHON): about 130 packages, 400 MB, once; takes 1 to 5 minutes.'
+	@echo 'Making .venv with $(PYTHON): about 130 packages and 1 GB, once; a minute or a few.'
 	$(PYTHON) -m venv .venv
 	.venv/bin/python -m pip install --disable-pip-version-check -r requirements.lock
 	.venv/bin/python -m pip install --disable-pip-version-check --no-deps --no-build-isolation -e .
