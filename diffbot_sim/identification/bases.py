@@ -1,0 +1,131 @@
+"""Free-form forces: piecewise linear or periodic functions of one variable, along one axis."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from diffbot_sim.identification.fitting import Fit, predictions
+from diffbot_sim.identification.predictor import Prediction
+from diffbot_sim.identification.stretches import Stretch
+from diffbot_sim.records import Array
+
+KNOTS, HARMONICS, CURVE_POINTS = 6, 2, 25
+PERIODIC = ('heading', 'wheel_angle')
+AXES = ('v', 'omega')
+# How long a change of the command counts as recent [s].
+RECENT = 0.1
+# Unit of the amounts: this share of the largest command.
+UNIT_SHARE = 0.01
+
+
+@dataclass(frozen=True)
+class Basis:
+    """Functions of one variable, evaluated along each stretch.
+
+    axis: 'v' (a force, N) or 'omega' (a torque, N·m); knots: of the variable, empty where it is
+    periodic; unit: force or torque that an amount of 1 stands for; values: one array (k, q) for
+    each stretch.
+    """
+
+    axis: str
+    variable: str
+    knots: Array
+    unit: float
+    values: tuple[Array, ...]
+
+    @property
+    def size(self) -> int:
+        """Number of functions."""
+        return int(self.values[0].shape[1])
+
+    def same_as(self, other: 'Basis') -> bool:
+        """Tell whether both are the same functions, on whatever stretches."""
+        return (self.axis, self.variable) == (other.axis, other.variable)
+
+    def push(self, stretch: int, index: int) -> Array:
+        """Return one function as a push on the body, shape (k, 2)."""
+        values = self.values[stretch]
+        push = np.zeros((len(values), 2))
+        push[:, AXES.index(self.axis)] = self.unit * values[:, index]
+        return push
+
+    def strength(self, amounts: Array) -> float:
+        """Return the rms of the force or torque that amounts stand for."""
+        force = np.concatenate([values @ amounts for values in self.values])
+        return float(self.unit * np.sqrt(np.mean(force**2)))
+
+    def curve(self, amounts: Array, spread: Array) -> tuple[Array, Array, Array]:
+        """Return points of the variable, force there, and its standard error."""
+        if self.variable in PERIODIC:
+            points = np.linspace(-np.pi, np.pi, CURVE_POINTS)
+            design = _periodic(points)
+        else:
+            points, design = self.knots, np.eye(len(self.knots))
+        error = np.sqrt(np.maximum(np.einsum('ij,jk,ik->i', design, spread, design), 0.0))
+        return points, self.unit * design @ amounts, self.unit * error
+
+
+def bases(fit: Fit, stretches: Sequence[Stretch], like: Basis | None = None) -> list[Basis]:
+    """Return every basis on these stretches; with `like`, its functions alone."""
+    found = predictions(fit, stretches)
+    pairs = list(zip(stretches, found, strict=True))
+    columns = {
+        name: [_variables(fit, stretch, prediction)[name] for stretch, prediction in pairs]
+        for name in ('v', 'omega', 'heading', 'wheel_angle', 'time', 'traction', 'command_change')
+    }
+    unit = UNIT_SHARE * max(float(np.abs(s.run.commands.force).max()) for s in stretches)
+    result = []
+    for axis in AXES:
+        for name, values in columns.items():
+            if like is not None and (axis, name) != (like.axis, like.variable):
+                continue
+            knots = like.knots if like is not None else _knots(name, np.concatenate(values))
+            evaluated = tuple(_evaluate(name, column, knots) for column in values)
+            lever = fit.model.robot.half_separation if axis == 'omega' else 1.0
+            scale = like.unit if like is not None else unit * lever
+            if evaluated[0].shape[1] > 0:
+                result.append(Basis(axis, name, knots, scale, evaluated))
+    return result
+
+
+def _variables(fit: Fit, stretch: Stretch, prediction: Prediction) -> dict[str, Array]:
+    time, radius = stretch.time, fit.model.robot.wheel_radius
+    commands = stretch.run.commands
+    force = _held(commands.time, commands.force, time)
+    before = _held(commands.time, commands.force, time - RECENT)
+    way = np.concatenate([[0.0], np.cumsum(np.diff(time) * prediction.twist[:-1, 0])])
+    return {
+        'v': prediction.twist[:, 0],
+        'omega': prediction.twist[:, 1],
+        'heading': stretch.heading,
+        'wheel_angle': way / radius,
+        'time': time,
+        'traction': force.sum(axis=1),
+        'command_change': (force - before).sum(axis=1),
+    }
+
+
+def _held(stamps: Array, force: Array, time: Array) -> Array:
+    index = np.searchsorted(stamps, time, side='right') - 1
+    return np.where(index[:, None] >= 0, force[np.maximum(index, 0)], 0.0)
+
+
+def _knots(name: str, values: Array) -> Array:
+    """Return distinct knots at quantiles; too few of them: the drive does not vary this."""
+    if name in PERIODIC:
+        return np.empty(0)
+    return np.unique(np.quantile(values, np.linspace(0.0, 1.0, KNOTS)))
+
+
+def _evaluate(name: str, values: Array, knots: Array) -> Array:
+    if name in PERIODIC:
+        return _periodic(values)
+    if len(knots) < 3 or knots[-1] - knots[0] < 1e-6:
+        return np.empty((len(values), 0))
+    return np.stack([np.interp(values, knots, hat) for hat in np.eye(len(knots))], axis=1)
+
+
+def _periodic(values: Array) -> Array:
+    waves = [wave(h * values) for h in range(1, HARMONICS + 1) for wave in (np.cos, np.sin)]
+    return np.stack(waves, axis=1)

@@ -1,0 +1,139 @@
+"""The numbers that a fit may turn, and the model that they stand for."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import exp, log
+from typing import Any
+
+import numpy as np
+
+from diffbot_sim.parameters import Spec, specs
+from diffbot_sim.physics.effects import Effect
+from diffbot_sim.physics.model import Model
+from diffbot_sim.records import Array
+
+# A parameter that the data leaves open stays near its declared value: one standard deviation of
+# this weak prior is a factor e, or one declared value, and weighs as much as one sample.
+PRIOR_DEVIATION = 1.0
+# Widest factor between a declared and a fitted mass, inertia or Stribeck coefficient.
+WIDEST_FACTOR = 30.0
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """One number of a fit: dimensionless, of order one, `prior` where nothing is known.
+
+    value turns it into the parameter's own unit.
+    """
+
+    name: str
+    unit: str
+    prior: float
+    low: float
+    high: float
+    value: Callable[[float], float]
+
+
+@dataclass(frozen=True)
+class Space:
+    """The nominal parameters of a declared model and those of some effects, as one vector."""
+
+    declared: Model
+    kinds: tuple[type[Effect], ...]
+
+    @property
+    def nominal(self) -> tuple[Coordinate, ...]:
+        """Coordinates of the nominal parameters."""
+        robot = {spec.name: spec for spec in specs(self.declared.robot)}
+        friction = {spec.name: spec for spec in specs(self.declared.friction)}
+        result = [_positive(robot[n], getattr(self.declared.robot, n)) for n in FREE_OF_ROBOT]
+        for name in self.declared.friction.active:
+            declared = getattr(self.declared.friction, name)
+            if name == 'mu_static':
+                # Fitted as its excess over mu_coulomb, so that the two cannot cross.
+                declared = declared - self.declared.friction.mu_coulomb
+            make = _positive if name == 'stribeck' and declared > 0.0 else _linear
+            result.append(make(friction[name], declared))
+        return tuple(result)
+
+    @property
+    def of_effects(self) -> tuple[Coordinate, ...]:
+        """Coordinates of the effects' parameters, neutral at their prior."""
+        return tuple(_of_effect(kind, spec) for kind in self.kinds for spec in kind.specs())
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """All coordinates: nominal, then effects."""
+        return self.nominal + self.of_effects
+
+    def model(self, u: Array) -> Model:
+        """Return the model at a point."""
+        values = self.values(u)
+        robot = replace(self.declared.robot, mass=values['mass'], inertia=values['inertia'])
+        active: dict[str, Any] = {n: values[n] for n in self.declared.friction.active}
+        friction = replace(self.declared.friction, **active)
+        own = {e.name: e for e in self.declared.effects}
+        for kind in self.kinds:
+            own[kind.name] = kind(
+                **{s.name: values[f'{kind.name}.{s.name}'] for s in kind.specs()}
+            )
+        return Model(robot, friction, tuple(own.values()))
+
+    def values(self, u: Array) -> dict[str, float]:
+        """Return the parameters in their own units by name."""
+        found = {c.name: c.value(float(x)) for c, x in zip(self.coordinates, u, strict=True)}
+        if 'mu_static' in found:
+            found['mu_static'] += found['mu_coulomb']
+        return found
+
+    def prior(self) -> Array:
+        """Return the point at which all is as declared and every effect neutral."""
+        return np.array([c.prior for c in self.coordinates])
+
+    def bounds(self) -> tuple[Array, Array]:
+        """Return lowest and highest values of every coordinate."""
+        return (
+            np.array([c.low for c in self.coordinates]),
+            np.array([c.high for c in self.coordinates]),
+        )
+
+
+FREE_OF_ROBOT = ('mass', 'inertia')
+
+
+def _of_effect(kind: type[Effect], spec: Spec) -> Coordinate:
+    """Fit a parameter in units of a typical departure from neutral."""
+
+    def value(u: float) -> float:
+        return u * spec.scale
+
+    name, scale = f'{kind.name}.{spec.name}', spec.scale
+    neutral, low, high = spec.default / scale, spec.low / scale, spec.high / scale
+    return Coordinate(name, spec.unit, neutral, low, high, value)
+
+
+def _positive(spec: Spec, declared: float) -> Coordinate:
+    """Fit the logarithm of a parameter that cannot reach zero."""
+
+    def value(u: float) -> float:
+        return float(np.clip(declared * exp(u), spec.low, spec.high))
+
+    widest = log(WIDEST_FACTOR)
+    return Coordinate(spec.name, spec.unit, 0.0, -widest, widest, value)
+
+
+def _linear(spec: Spec, declared: float) -> Coordinate:
+    """Fit a parameter that may be zero, in units of its declared size."""
+    scale = max(declared, spec.scale)
+    high = spec.high / scale
+
+    def value(u: float) -> float:
+        return u * scale
+
+    return Coordinate(spec.name, spec.unit, declared / scale, 0.0, high, value)
+
+
+def guesses(kind: type[Effect]) -> list[Array]:
+    """Return an effect's starting points as coordinates."""
+    scales = np.array([spec.scale for spec in kind.specs()])
+    return [np.asarray(guess) / scales for guess in kind.guesses]

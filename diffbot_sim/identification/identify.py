@@ -1,0 +1,156 @@
+"""From runs and a declared model to what the model lacks."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+
+from diffbot_sim.errors import DataError
+from diffbot_sim.identification.calibration import calibrate, simulation_error
+from diffbot_sim.identification.comparison import compare_models, errors_of
+from diffbot_sim.identification.coordinates import Space
+from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction, fit_simulation
+from diffbot_sim.identification.result import (
+    EFFECTS_FOUND,
+    NOTHING_MISSING,
+    UNEXPLAINED,
+    Candidate,
+    FoundEffect,
+    Identification,
+    Structure,
+)
+from diffbot_sim.identification.screening import Screen
+from diffbot_sim.identification.selection import UNSEEN, Selection, Trial, select
+from diffbot_sim.identification.stretches import Stretch, split, whole
+from diffbot_sim.identification.structure import find_structure
+from diffbot_sim.identification.uncertainty import estimates
+from diffbot_sim.physics.effects import Effect, library
+from diffbot_sim.physics.model import Model
+from diffbot_sim.records import Run
+
+# Prediction fits are kept for simulation unless a fit by simulation error does this much better.
+SIMULATION_MARGIN = 0.2
+
+
+def identify(
+    runs: Sequence[Run],
+    declared: Model,
+    validate: Sequence[Run] = (),
+    progress: Callable[[str], None] = lambda text: None,
+    kinds: Sequence[type[Effect]] | None = None,
+) -> Identification:
+    """Recalibrate a declared model on runs, and find the effects that it lacks.
+
+    validate: runs for the before/after errors; without them the last part of each run is held
+    out. kinds: the effects to try, by default the whole library. Raises DataError where the
+    runs are too short or do not move.
+    """
+    fitted, held_out = (whole(runs), whole(validate)) if validate else split(runs)
+    _check(fitted)
+    tried = _candidates(declared, kinds)
+    progress('calibrating the declared model')
+    recalibrated = calibrate(Space(declared, ()), fitted)
+    progress('fitting the noise model')
+    base = fit_prediction(recalibrated.space, fitted, recalibrated.u, FIRST_GAINS)
+    selection = select(base, tried, held_out, progress)
+    progress('looking for structure that is left')
+    unexplained = find_structure(Screen(selection.final), held_out)
+    final = _for_simulation(selection, recalibrated)
+    comparisons = compare_models(declared, recalibrated.model, final, held_out)
+    return Identification(
+        verdict=_verdict(selection, unexplained),
+        effects=_effects(selection, final),
+        unexplained=unexplained,
+        nominal=estimates(recalibrated),
+        errors=errors_of(comparisons, 'validate' if validate else 'held_out'),
+        candidates=tuple(_candidate(trial) for trial in selection.trials),
+        declared=declared,
+        recalibrated=recalibrated.model,
+        identified=final.model,
+        comparisons=comparisons,
+        advice=_advice(selection),
+    )
+
+
+def _check(stretches: Sequence[Stretch]) -> None:
+    """Refuse runs from which nothing follows."""
+    if all(float(abs(s.twist).max()) < 1e-3 for s in stretches):
+        names = ', '.join(s.run.name for s in stretches)
+        raise DataError(
+            f'{names}: the robot never moves; record a drive with forces that move it.'
+        )
+
+
+def _candidates(declared: Model, kinds: Sequence[type[Effect]] | None) -> tuple[type[Effect], ...]:
+    """Return the effects to try: what the declared model has is not missing."""
+    present = {effect.name for effect in declared.effects}
+    chosen = library().values() if kinds is None else kinds
+    return tuple(kind for kind in chosen if kind.name not in present)
+
+
+def _for_simulation(selection: Selection, recalibrated: Fit) -> Fit:
+    """Choose the parameters that will be simulated.
+
+    One-step prediction gives the sharper estimate when the structure is complete. Where it is
+    not, the fit by simulation error is the one that simulates best, and is taken.
+    """
+    final = selection.final
+    if not final.space.kinds:
+        return recalibrated
+    simulated = fit_simulation(final.space, final.stretches, final.u)
+    as_predicted = fit_simulation(final.space, final.stretches, final.u, evaluations=1)
+    better = simulation_error(simulated) < simulation_error(as_predicted) - SIMULATION_MARGIN
+    return simulated if better else final
+
+
+def _verdict(selection: Selection, unexplained: Structure | None) -> str:
+    if selection.final.space.kinds:
+        return EFFECTS_FOUND
+    return NOTHING_MISSING if unexplained is None else UNEXPLAINED
+
+
+def _effects(selection: Selection, final: Fit) -> tuple[FoundEffect, ...]:
+    """Describe the effects found, the one with most evidence first."""
+    found = estimates(final)
+    order = sorted(selection.support, key=lambda name: -selection.support[name].delta_bic)
+    return tuple(
+        FoundEffect(
+            name=name,
+            parameters={
+                key.removeprefix(name + '.'): estimate
+                for key, estimate in found.items()
+                if key.startswith(name + '.')
+            },
+            evidence=asdict(selection.support[name]),
+            alternatives=selection.alternatives[name],
+            separate_by=_separate_by(name, selection.alternatives[name]),
+        )
+        for name in order
+    )
+
+
+def _separate_by(name: str, alternatives: Sequence[str]) -> str:
+    drives = {library()[other].excitation for other in (name, *alternatives)}
+    return '; '.join(sorted(drives)) if alternatives else ''
+
+
+def _candidate(trial: Trial) -> Candidate:
+    evidence = trial.evidence
+    names = [] if trial.fit is None else list(trial.fit.space.values(trial.fit.u).items())
+    own = {key: value for key, value in names if key.startswith(trial.kind.name + '.')}
+    return Candidate(
+        trial.kind.name,
+        evidence.delta_bic,
+        evidence.p_value,
+        evidence.p_block,
+        evidence.held_out_gain,
+        trial.outcome,
+        {key.removeprefix(trial.kind.name + '.'): value for key, value in own.items()},
+    )
+
+
+def _advice(selection: Selection) -> tuple[str, ...]:
+    """Say which drive would show what this one does not."""
+    return tuple(
+        f'{trial.kind.name} cannot be seen in this drive; it would take {trial.kind.excitation}.'
+        for trial in selection.trials
+        if trial.outcome == UNSEEN
+    )

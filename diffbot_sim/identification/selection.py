@@ -1,0 +1,165 @@
+"""Which effects enter: forward while the evidence is beyond doubt, then backward."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from diffbot_sim.identification.candidates import extend, reduce
+from diffbot_sim.identification.evidence import Evidence, compare, delta_bic
+from diffbot_sim.identification.fitting import Fit
+from diffbot_sim.identification.screening import PROMISING, Screen
+from diffbot_sim.identification.stretches import Stretch
+from diffbot_sim.physics.effects import Effect
+
+# An effect enters when all four agree. The likelihood ratio, corrected for the number tried,
+# guards against chance; the block test against disturbances that are no white noise; the
+# held-out gain against fitting them.
+LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_T = 1e-3, 1e-2, 1.65
+# Structures closer than this in BIC cannot be told apart.
+INDISTINGUISHABLE = 10.0
+# What explains less than this share of a found effect's worth to first order is no rival of it.
+RIVAL_SHARE = 0.5
+MOST_EFFECTS = 4
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One effect tried on top of a structure."""
+
+    kind: type[Effect]
+    fit: Fit | None
+    evidence: Evidence
+    outcome: str
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the evidence was beyond doubt."""
+        return self.outcome == SUPPORTED
+
+
+SUPPORTED = 'supported'
+CHANCE = 'no better than chance'
+UNSEEN = 'not excited by this drive'
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Where the search ended.
+
+    base: the nominal fit; final: the chosen one; trials: the last trial of each effect, best
+    first; alternatives: for each effect chosen, those that the data cannot tell from it;
+    support: for each effect chosen, the evidence for it within the final structure.
+    """
+
+    base: Fit
+    final: Fit
+    trials: tuple[Trial, ...]
+    alternatives: dict[str, tuple[str, ...]]
+    support: dict[str, Evidence]
+
+
+def select(
+    base: Fit,
+    kinds: Sequence[type[Effect]],
+    held_out: Sequence[Stretch],
+    progress: Progress,
+) -> Selection:
+    """Search the structures made of these effects."""
+    current, last = base, dict[str, Trial]()
+    while len(current.space.kinds) < MOST_EFFECTS:
+        trials = _try_all(current, kinds, held_out, progress)
+        last.update({trial.kind.name: trial for trial in trials})
+        entering = [trial for trial in trials if trial.accepted]
+        if not entering:
+            break
+        best = max(entering, key=lambda trial: trial.evidence.delta_bic)
+        progress(f'{best.kind.name} enters')
+        current = best.fit or current
+    final, support = _prune(current, len(kinds), held_out, progress)
+    chosen = {kind.name for kind in final.space.kinds}
+    trials = sorted(last.values(), key=lambda t: (t.kind.name in chosen, t.evidence.delta_bic))
+    alternatives = {name: _alternatives(final, name, kinds, progress) for name in chosen}
+    return Selection(base, final, tuple(reversed(trials)), alternatives, support)
+
+
+def judge(evidence: Evidence, tried: int) -> str:
+    """Say whether an effect may enter, or why not."""
+    if evidence.p_value * tried > LIKELIHOOD_LEVEL or evidence.delta_bic <= 0.0:
+        return CHANCE
+    if evidence.p_block > BLOCK_LEVEL:
+        return 'not beyond a disturbance that changes slowly'
+    if evidence.held_out_t < HELD_OUT_T:
+        return 'does not predict held-out data better'
+    return SUPPORTED
+
+
+def _try_all(
+    current: Fit, kinds: Sequence[type[Effect]], held_out: Sequence[Stretch], progress: Progress
+) -> list[Trial]:
+    """Screen every effect that is not there yet; fit and weigh what is promising."""
+    present = {effect.name for effect in current.model.effects}
+    screen = Screen(current)
+    trials = []
+    for kind in kinds:
+        if kind.name not in present:
+            progress(f'trying {kind.name}')
+            trials.append(_try(screen, kind, held_out, len(kinds)))
+    return trials
+
+
+def _try(screen: Screen, kind: type[Effect], held_out: Sequence[Stretch], tried: int) -> Trial:
+    score = screen.score(kind)
+    if not score.seen or score.p_value > PROMISING:
+        outcome = CHANCE if score.seen else UNSEEN
+        cost = len(kind.specs()) * float(np.log(screen.fit.whitened.size))
+        evidence = Evidence(score.ratio - cost, score.p_value, 1.0, 0.0, 0.0)
+        return Trial(kind, None, evidence, outcome)
+    fit = extend(screen, kind, score)
+    evidence = compare(screen.fit, fit, held_out)
+    return Trial(kind, fit, evidence, judge(evidence, tried))
+
+
+def _prune(
+    fit: Fit, tried: int, held_out: Sequence[Stretch], progress: Progress
+) -> tuple[Fit, dict[str, Evidence]]:
+    """Take out, one by one, effects that later ones have made needless."""
+    while True:
+        support, smaller = dict[str, Evidence](), dict[str, Fit]()
+        for kind in fit.space.kinds:
+            progress(f'trying without {kind.name}')
+            smaller[kind.name] = reduce(fit, kind.name)
+            support[kind.name] = compare(smaller[kind.name], fit, held_out)
+        needless = [
+            name
+            for name, evidence in support.items()
+            if evidence.p_value * tried > LIKELIHOOD_LEVEL or evidence.delta_bic <= 0.0
+        ]
+        if not needless:
+            return fit, support
+        worst = min(needless, key=lambda name: support[name].delta_bic)
+        progress(f'{worst} leaves')
+        fit = smaller[worst]
+
+
+def _alternatives(
+    final: Fit, name: str, kinds: Sequence[type[Effect]], progress: Progress
+) -> tuple[str, ...]:
+    """Return effects that, in place of one that was found, explain the data as well."""
+    rest = reduce(final, name)
+    screen = Screen(rest)
+    worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
+    present = {effect.name for effect in final.model.effects}
+    found = []
+    for kind in kinds:
+        if kind.name in present:
+            continue
+        score = screen.score(kind)
+        if not score.seen or score.ratio < RIVAL_SHARE * worth:
+            continue
+        progress(f'trying {kind.name} in place of {name}')
+        if delta_bic(extend(screen, kind, score), final) < INDISTINGUISHABLE:
+            found.append(kind.name)
+    return tuple(found)

@@ -1,0 +1,37 @@
+"""The first state of a stretch, as a model sees it: speeds that fit the first second best."""
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from diffbot_sim.identification.stretches import Stretch
+from diffbot_sim.physics import simulate
+from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.state import State
+from diffbot_sim.records import Array
+
+WINDOW = 1.0
+
+
+def start_of(model: Model, stretch: Stretch, max_step: float) -> State:
+    """Return the state from which a free-running simulation of a stretch begins.
+
+    A robot that rests starts at rest exactly. Otherwise one noisy sample would turn into a
+    heading error that lasts, so v and ω are fitted to the first WINDOW seconds.
+    """
+    first = stretch.start
+    if first.v == 0.0 and first.omega == 0.0:
+        return first
+    count = max(10, int(np.searchsorted(stretch.time, stretch.time[0] + WINDOW)))
+    time, twist = stretch.time[:count], stretch.twist[:count]
+    noise = np.std(np.diff(twist, n=2, axis=0), axis=0) / np.sqrt(6.0) + 1e-9
+
+    def errors(twist_at_start: Array) -> Array:
+        start = replace(first, v=float(twist_at_start[0]), omega=float(twist_at_start[1]))
+        run = simulate(model, stretch.run.commands, time, start, max_step)
+        return np.asarray(((twist - run.twist) / noise).ravel())
+
+    guess = np.array([first.v, first.omega])
+    best = least_squares(errors, guess, loss='huber', f_scale=3.0, diff_step=1e-5, max_nfev=10).x
+    return replace(first, v=float(best[0]), omega=float(best[1]))

@@ -1,0 +1,104 @@
+"""Recorded runs as identification uses them: stretches to be fitted and to be held out."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from diffbot_sim.errors import DataError
+from diffbot_sim.physics.state import State
+from diffbot_sim.records import Array, Odometry, Run
+
+# Faster odometry is averaged down to this rate [Hz]: noise falls, nothing of the motion is lost.
+HIGHEST_RATE = 100.0
+# Share of each run that is fitted when no run is given for validation.
+FITTED_SHARE = 0.7
+# What a start is estimated from, and what is left out of fits after it [s].
+START_WINDOW, SETTLING = 0.3, 0.5
+FEWEST_SAMPLES = 50
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A part of a run with the commands of the whole run.
+
+    time [s], shape (k,), counted from the start of the run; twist, shape (k, 2); heading [rad],
+    shape (k,), measured where a pose was recorded, otherwise the integral of ω; start: state at
+    time[0]; used: samples that count in fits, shape (k,).
+    """
+
+    run: Run
+    time: Array
+    twist: Array
+    heading: Array
+    pose: Array | None
+    start: State
+    used: Array
+
+    @property
+    def interval(self) -> float:
+        """Median time between samples [s]."""
+        return float(np.median(np.diff(self.time)))
+
+
+def whole(runs: Sequence[Run]) -> tuple[Stretch, ...]:
+    """Return each run as one stretch."""
+    return tuple(_stretch(run, thin(run.odometry), 0.0, 1.0) for run in runs)
+
+
+def split(runs: Sequence[Run]) -> tuple[tuple[Stretch, ...], tuple[Stretch, ...]]:
+    """Return the first part of each run, to be fitted, and the rest, held out."""
+    thinned = [(run, thin(run.odometry)) for run in runs]
+    fitted = tuple(_stretch(run, odometry, 0.0, FITTED_SHARE) for run, odometry in thinned)
+    held_out = tuple(_stretch(run, odometry, FITTED_SHARE, 1.0) for run, odometry in thinned)
+    return fitted, held_out
+
+
+def thin(odometry: Odometry) -> Odometry:
+    """Average odometry that is faster than HIGHEST_RATE over groups of samples."""
+    rate = 1.0 / float(np.median(np.diff(odometry.time)))
+    group = int(rate / HIGHEST_RATE + 0.5)
+    if group < 2:
+        return odometry
+    count = len(odometry.time) // group
+
+    def average(values: Array) -> Array:
+        tail = values.shape[1:]
+        return np.asarray(values[: count * group].reshape(count, group, *tail).mean(axis=1))
+
+    pose = None if odometry.pose is None else average(odometry.pose)
+    return Odometry(average(odometry.time), average(odometry.twist), pose)
+
+
+def _stretch(run: Run, odometry: Odometry, begin: float, end: float) -> Stretch:
+    count = len(odometry.time)
+    part = slice(int(begin * count), int(end * count))
+    time, twist = odometry.time[part], odometry.twist[part]
+    if len(time) < FEWEST_SAMPLES:
+        raise DataError(
+            f'{run.name}: {count} odometry samples are too few to fit and to hold out; '
+            f'record at least {4 * FEWEST_SAMPLES}, better two minutes.'
+        )
+    pose = None if odometry.pose is None else odometry.pose[part]
+    heading = _integral(time, twist[:, 1]) if pose is None else pose[:, 2]
+    start = _start(time, twist, pose, float(heading[0]))
+    used = (time > time[0] + SETTLING).astype(float)
+    return Stretch(run, time, twist, np.ascontiguousarray(heading), pose, start, used)
+
+
+def _integral(time: Array, rate: Array) -> Array:
+    steps = np.diff(time) * 0.5 * (rate[1:] + rate[:-1])
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def _start(time: Array, twist: Array, pose: Array | None, heading: float) -> State:
+    """Estimate the first state: a line through the first samples; rest where they allow it."""
+    count = max(5, int(np.searchsorted(time, time[0] + START_WINDOW)))
+    count = min(count, len(time))
+    design = np.column_stack([np.ones(count), time[:count] - time[0]])
+    line, *_ = np.linalg.lstsq(design, twist[:count], rcond=None)
+    noise = np.std(np.diff(twist, n=2, axis=0), axis=0) / np.sqrt(6.0)
+    resting = np.all(np.abs(twist[:count].mean(axis=0)) < 3.0 * noise / np.sqrt(count) + 1e-9)
+    v, omega = (0.0, 0.0) if resting else (float(line[0, 0]), float(line[0, 1]))
+    x, y = (0.0, 0.0) if pose is None else (float(pose[0, 0]), float(pose[0, 1]))
+    return State(x, y, heading, v, omega)

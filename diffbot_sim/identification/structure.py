@@ -1,0 +1,121 @@
+"""Structure that no effect accounts for: a force that depends on something, whatever its law."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import stats
+
+from diffbot_sim.identification.bases import Basis, bases
+from diffbot_sim.identification.evidence import HELD_OUT_BLOCKS, sandwich, wald_p
+from diffbot_sim.identification.fitting import Fit, whitened
+from diffbot_sim.identification.result import Structure
+from diffbot_sim.identification.screening import Screen
+from diffbot_sim.identification.stretches import Stretch
+from diffbot_sim.records import Array
+
+# As strict as the entry of an effect: chance over all dependences tried, disturbances, held out.
+LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_T = 1e-3, 1e-2, 2.0
+WORDS = {
+    'v': 'the speed',
+    'omega': 'the yaw rate',
+    'heading': 'the heading',
+    'wheel_angle': 'the wheel angle',
+    'time': 'time',
+    'traction': 'the commanded force',
+    'command_change': 'recent changes of the command',
+}
+
+
+@dataclass(frozen=True)
+class Dependence:
+    """How much a free-form force along one axis, depending on one variable, explains.
+
+    fall: of the deviance; amounts: coefficients of the basis in its units; spread: their
+    covariance; p_value and p_block as for effects.
+    """
+
+    basis: Basis
+    fall: float
+    amounts: Array
+    adaptation: Array
+    spread: Array
+    p_value: float
+    p_block: float
+
+
+def dependences(screen: Screen) -> list[Dependence]:
+    """Try every basis on the residual of a fit, the strongest first."""
+    fit = screen.fit
+    tried = [_try(screen, basis) for basis in bases(fit, fit.stretches)]
+    return sorted(tried, key=lambda d: d.fall - len(d.amounts) * np.log(fit.whitened.size))[::-1]
+
+
+def find_structure(screen: Screen, held_out: Sequence[Stretch]) -> Structure | None:
+    """Return the strongest dependence that is beyond doubt, or None."""
+    found = dependences(screen)
+    for dependence in found:
+        beyond_chance = dependence.p_value * len(found) < LIKELIHOOD_LEVEL
+        if not beyond_chance or dependence.p_block > BLOCK_LEVEL:
+            continue
+        if _held_out_t(screen.fit, dependence, held_out) > HELD_OUT_T:
+            return _describe(dependence)
+    return None
+
+
+def _try(screen: Screen, basis: Basis) -> Dependence:
+    slopes = sensitivity(screen.fit, screen.fit.stretches, basis)
+    fall, amounts, flat = screen.explained(slopes)
+    rest = screen.residual + flat @ amounts
+    spread = sandwich(flat, rest)
+    return Dependence(
+        basis,
+        fall,
+        amounts,
+        screen.adaptation(slopes, amounts),
+        spread,
+        float(stats.chi2.sf(fall, len(amounts))),
+        wald_p(amounts, spread),
+    )
+
+
+def sensitivity(fit: Fit, stretches: Sequence[Stretch], basis: Basis) -> Array:
+    """Return the derivative of whitened errors by the amounts of a basis, shape (n, 2, q)."""
+    base = whitened(stretches, fit.model, fit.gains, fit.sigma)
+    columns = []
+    for index in range(basis.size):
+        pushes = [basis.push(stretch_index, index) for stretch_index in range(len(stretches))]
+        moved = whitened(stretches, fit.model, fit.gains, fit.sigma, pushes)
+        columns.append(moved - base)
+    return np.stack(columns, axis=-1)
+
+
+def _held_out_t(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) -> float:
+    """Return the t value of the fall of squared held-out errors, to first order."""
+    twin = next(b for b in bases(fit, held_out, dependence.basis) if b.same_as(dependence.basis))
+    errors = whitened(held_out, fit.model, fit.gains, fit.sigma)
+    change = sensitivity(fit, held_out, twin) @ dependence.amounts
+    change = change + fit.jacobian_on(held_out) @ dependence.adaptation
+    gain = (errors**2 - (errors + change) ** 2).sum(axis=1)
+    blocks = [block.mean() for block in np.array_split(gain, HELD_OUT_BLOCKS)]
+    return float(np.mean(blocks) / (np.std(blocks, ddof=1) / np.sqrt(HELD_OUT_BLOCKS) + 1e-12))
+
+
+def _describe(dependence: Dependence) -> Structure:
+    basis = dependence.basis
+    knots, curve, error = basis.curve(dependence.amounts, dependence.spread)
+    strength = basis.strength(dependence.amounts)
+    kind, unit = ('force along the robot', 'N') if basis.axis == 'v' else ('torque', 'N·m')
+    return Structure(
+        description=(
+            f'a {kind} of {strength:.3g} {unit} rms that depends on '
+            f'{WORDS[basis.variable]} and that no effect of the library accounts for'
+        ),
+        axis=basis.axis,
+        variable=basis.variable,
+        strength=strength,
+        p_value=dependence.p_block,
+        knots=knots,
+        force=curve,
+        force_error=error,
+    )
