@@ -5,7 +5,7 @@ from glob import glob
 from setuptools import find_packages, setup
 
 NAME = 'diffbot_sim'
-COMMANDS = ['simulator', 'pi_controller', 'recorder', 'replay', 'simulate', 'identify']
+COMMANDS = ['simulator', 'pi_controller', 'driver', 'recorder', 'replay', 'simulate', 'identify']
 
 setup(
     name=NAME,

@@ -13,7 +13,7 @@ from diffbot_sim import __version__
 from diffbot_sim.errors import DiffbotError
 from diffbot_sim.parameters import suggestion
 
-NODES = ('simulator', 'pi_controller', 'recorder', 'replay')
+NODES = ('simulator', 'pi_controller', 'driver', 'recorder', 'replay')
 INTERRUPTED = 130
 
 

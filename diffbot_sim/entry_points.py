@@ -12,6 +12,7 @@ def _run(command: str) -> int:
 
 simulator = partial(_run, 'simulator')
 pi_controller = partial(_run, 'pi_controller')
+driver = partial(_run, 'driver')
 recorder = partial(_run, 'recorder')
 replay = partial(_run, 'replay')
 simulate = partial(_run, 'simulate')

@@ -7,6 +7,8 @@ import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.fitting import Fit, huber, whitened
+from diffbot_sim.identification.predictor import MAX_STEP
+from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.records import Array
 
@@ -20,14 +22,14 @@ class Evidence:
 
     delta_bic: fall of the BIC; p_value: likelihood ratio; p_block: Wald test with the covariance
     of blocks; held_out_gain: fall of the mean half squared error per held-out sample;
-    held_out_t: the same over its standard error.
+    p_held_out: the chance of that, by signed ranks of blocks.
     """
 
     delta_bic: float
     p_value: float
     p_block: float
     held_out_gain: float
-    held_out_t: float
+    p_held_out: float
 
 
 def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
@@ -35,13 +37,13 @@ def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
     added = len(large.u) - len(small.u)
     ratio = max(small.deviance(large.sigma) - large.deviance(large.sigma), 0.0)
     samples = large.whitened.size
-    gain, t = held_out_gain(small, large, held_out)
+    gain, chance = held_out_gain(small, large, held_out)
     return Evidence(
         delta_bic=ratio - added * float(np.log(samples)),
         p_value=float(stats.chi2.sf(ratio, added)),
         p_block=wald(large, range(len(small.u), len(large.u))),
         held_out_gain=gain,
-        held_out_t=t,
+        p_held_out=chance,
     )
 
 
@@ -53,14 +55,24 @@ def delta_bic(first: Fit, second: Fit) -> float:
 
 
 def held_out_gain(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> tuple[float, float]:
-    """Return the mean fall of the held-out loss per sample and its t value over blocks."""
-    losses = [
-        0.5 * huber(whitened(held_out, fit.model, fit.gains, large.sigma)).sum(axis=1)
-        for fit in (small, large)
-    ]
-    blocks = [b.mean() for b in np.array_split(losses[0] - losses[1], HELD_OUT_BLOCKS)]
-    mean, spread = float(np.mean(blocks)), float(np.std(blocks, ddof=1))
-    return mean, mean / (spread / np.sqrt(HELD_OUT_BLOCKS) + 1e-12)
+    """Return the mean fall of the held-out loss per sample, and its chance over blocks."""
+    losses = []
+    for fit in (small, large):
+        begun = restarted(fit.model, held_out, MAX_STEP)
+        errors = whitened(begun, fit.model, fit.gains, large.sigma)
+        losses.append(0.5 * huber(errors).sum(axis=1))
+    return block_gain(losses[0] - losses[1])
+
+
+def block_gain(gain: Array) -> tuple[float, float]:
+    """Return the mean of gains per sample and the p-value of its being above zero.
+
+    Signed ranks over blocks: a single block with a large gain, or loss, cannot decide.
+    """
+    blocks = [block.mean() for block in np.array_split(gain, HELD_OUT_BLOCKS)]
+    if not np.any(blocks):
+        return 0.0, 1.0
+    return float(gain.mean()), float(stats.wilcoxon(blocks, alternative='greater').pvalue)
 
 
 def covariance(fit: Fit) -> Array:

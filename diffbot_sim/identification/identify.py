@@ -8,6 +8,7 @@ from diffbot_sim.identification.calibration import calibrate, simulation_error
 from diffbot_sim.identification.comparison import compare_models, errors_of
 from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction, fit_simulation
+from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
     NOTHING_MISSING,
@@ -19,6 +20,7 @@ from diffbot_sim.identification.result import (
 )
 from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.selection import UNSEEN, Selection, Trial, select
+from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch, split, whole
 from diffbot_sim.identification.structure import find_structure
 from diffbot_sim.identification.uncertainty import estimates
@@ -48,6 +50,7 @@ def identify(
     tried = _candidates(declared, kinds)
     progress('calibrating the declared model')
     recalibrated = calibrate(Space(declared, ()), fitted)
+    fitted = restarted(recalibrated.model, fitted, MAX_STEP)
     progress('fitting the noise model')
     base = fit_prediction(recalibrated.space, fitted, recalibrated.u, FIRST_GAINS)
     selection = select(base, tried, held_out, progress)

@@ -15,7 +15,7 @@ from diffbot_sim.physics.effects import Effect
 # An effect enters when all four agree. The likelihood ratio, corrected for the number tried,
 # guards against chance; the block test against disturbances that are no white noise; the
 # held-out gain against fitting them.
-LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_T = 1e-3, 1e-2, 1.65
+LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_LEVEL = 1e-3, 1e-2, 0.05
 # Structures closer than this in BIC cannot be told apart.
 INDISTINGUISHABLE = 10.0
 # What explains less than this share of a found effect's worth to first order is no rival of it.
@@ -91,7 +91,7 @@ def judge(evidence: Evidence, tried: int) -> str:
         return CHANCE
     if evidence.p_block > BLOCK_LEVEL:
         return 'not beyond a disturbance that changes slowly'
-    if evidence.held_out_t < HELD_OUT_T:
+    if evidence.p_held_out > HELD_OUT_LEVEL:
         return 'does not predict held-out data better'
     return SUPPORTED
 
@@ -115,7 +115,7 @@ def _try(screen: Screen, kind: type[Effect], held_out: Sequence[Stretch], tried:
     if not score.seen or score.p_value > PROMISING:
         outcome = CHANCE if score.seen else UNSEEN
         cost = len(kind.specs()) * float(np.log(screen.fit.whitened.size))
-        evidence = Evidence(score.ratio - cost, score.p_value, 1.0, 0.0, 0.0)
+        evidence = Evidence(score.ratio - cost, score.p_value, 1.0, 0.0, 1.0)
         return Trial(kind, None, evidence, outcome)
     fit = extend(screen, kind, score)
     evidence = compare(screen.fit, fit, held_out)

@@ -1,5 +1,6 @@
 """The first state of a stretch, as a model sees it: speeds that fit the first second best."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -35,3 +36,8 @@ def start_of(model: Model, stretch: Stretch, max_step: float) -> State:
     guess = np.array([first.v, first.omega])
     best = least_squares(errors, guess, loss='huber', f_scale=3.0, diff_step=1e-5, max_nfev=10).x
     return replace(first, v=float(best[0]), omega=float(best[1]))
+
+
+def restarted(model: Model, stretches: Sequence[Stretch], max_step: float) -> tuple[Stretch, ...]:
+    """Return stretches that begin in the state in which this model fits them best."""
+    return tuple(replace(s, start=start_of(model, s, max_step)) for s in stretches)

@@ -7,15 +7,17 @@ import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.bases import Basis, bases
-from diffbot_sim.identification.evidence import HELD_OUT_BLOCKS, sandwich, wald_p
+from diffbot_sim.identification.evidence import block_gain, sandwich, wald_p
 from diffbot_sim.identification.fitting import Fit, whitened
+from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.screening import Screen
+from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.records import Array
 
 # As strict as the entry of an effect: chance over all dependences tried, disturbances, held out.
-LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_T = 1e-3, 1e-2, 2.0
+LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_LEVEL = 1e-3, 1e-2, 0.02
 WORDS = {
     'v': 'the speed',
     'omega': 'the yaw rate',
@@ -58,7 +60,7 @@ def find_structure(screen: Screen, held_out: Sequence[Stretch]) -> Structure | N
         beyond_chance = dependence.p_value * len(found) < LIKELIHOOD_LEVEL
         if not beyond_chance or dependence.p_block > BLOCK_LEVEL:
             continue
-        if _held_out_t(screen.fit, dependence, held_out) > HELD_OUT_T:
+        if _held_out_chance(screen.fit, dependence, held_out) < HELD_OUT_LEVEL:
             return _describe(dependence)
     return None
 
@@ -90,15 +92,14 @@ def sensitivity(fit: Fit, stretches: Sequence[Stretch], basis: Basis) -> Array:
     return np.stack(columns, axis=-1)
 
 
-def _held_out_t(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) -> float:
-    """Return the t value of the fall of squared held-out errors, to first order."""
-    twin = next(b for b in bases(fit, held_out, dependence.basis) if b.same_as(dependence.basis))
-    errors = whitened(held_out, fit.model, fit.gains, fit.sigma)
-    change = sensitivity(fit, held_out, twin) @ dependence.amounts
-    change = change + fit.jacobian_on(held_out) @ dependence.adaptation
-    gain = (errors**2 - (errors + change) ** 2).sum(axis=1)
-    blocks = [block.mean() for block in np.array_split(gain, HELD_OUT_BLOCKS)]
-    return float(np.mean(blocks) / (np.std(blocks, ddof=1) / np.sqrt(HELD_OUT_BLOCKS) + 1e-12))
+def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) -> float:
+    """Return the chance of the fall of squared held-out errors, to first order."""
+    begun = restarted(fit.model, held_out, MAX_STEP)
+    twin = next(b for b in bases(fit, begun, dependence.basis) if b.same_as(dependence.basis))
+    errors = whitened(begun, fit.model, fit.gains, fit.sigma)
+    change = sensitivity(fit, begun, twin) @ dependence.amounts
+    change = change + fit.jacobian_on(begun) @ dependence.adaptation
+    return block_gain((errors**2 - (errors + change) ** 2).sum(axis=1))[1]
 
 
 def _describe(dependence: Dependence) -> Structure:

@@ -1,0 +1,49 @@
+"""Drive a robot so that its bag shows everything: cmd_vel with steps, arcs, turns and stops."""
+
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+
+from diffbot_sim.control.excitation import excitation, twist_at
+from diffbot_sim.nodes import conversions
+from diffbot_sim.nodes.outputs import DEPTH
+from diffbot_sim.nodes.parameters import Live, Values, build, table
+from diffbot_sim.nodes.running import parse, parser, run
+from diffbot_sim.nodes.settings import DriverSettings
+
+
+class Driver(Node):
+    """Answers each odometry message with a twist, so it keeps time with the robot's clock."""
+
+    def __init__(self) -> None:
+        super().__init__('driver')
+        fixed = tuple(table(DriverSettings))
+        live = Live(self, table(DriverSettings), self._make, lambda settings: None, fixed)
+        chosen = live.value
+        self._duration = chosen.duration
+        self._segments = excitation(
+            chosen.seed, chosen.duration, chosen.fastest, chosen.fastest_turn
+        )
+        self._first: int | None = None
+        self._command = self.create_publisher(Twist, 'cmd_vel', DEPTH)
+        self.create_subscription(Odometry, 'odom', self._on_odometry, DEPTH)
+        self.get_logger().info(f'driving for {self._duration:g} s once odometry comes')
+
+    def _on_odometry(self, message: Odometry) -> None:
+        stamp = conversions.nanoseconds(message.header.stamp)
+        self._first = stamp if self._first is None else self._first
+        elapsed = (stamp - self._first) / 1e9
+        self._command.publish(conversions.twist(*twist_at(self._segments, elapsed)))
+        if elapsed > self._duration:
+            self.get_logger().info('the drive is over')
+            raise ExternalShutdownException
+
+    def _make(self, values: Values) -> DriverSettings:
+        return build(DriverSettings, values)
+
+
+def main(argv: list[str]) -> int:
+    """Drive until the drive is over or the node is told to stop."""
+    parse(parser('driver', __doc__ or '', table(DriverSettings)), argv)
+    return run(Driver, argv)
