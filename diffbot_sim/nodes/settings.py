@@ -1,0 +1,121 @@
+"""The parameters of each node, beside those of the model."""
+
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+from diffbot_sim.control.pi import Gains
+from diffbot_sim.parameters import parameter
+from diffbot_sim.physics import Robot
+
+
+@dataclass(frozen=True)
+class OdometryNoise:
+    """White noise on the measured twist; the same seed gives the same noise."""
+
+    linear: float = parameter(
+        0.0, unit='m/s', low=0.0, high=100.0, meaning='standard deviation of the noise on v'
+    )
+    angular: float = parameter(
+        0.0, unit='rad/s', low=0.0, high=100.0, meaning='standard deviation of the noise on ω'
+    )
+    seed: int = parameter(0, low=0, high=2**31 - 1, meaning='seed of the noise')
+
+
+@dataclass(frozen=True)
+class SimulatorSettings:
+    """Rates, clock and sensors of the simulator. `fixed` ones cannot change while it runs."""
+
+    fixed: ClassVar[tuple[str, ...]] = (
+        'publish_rate',
+        'physics_step',
+        'publish_clock',
+        'covariance_floor',
+        'enable_odom_tf',
+    )
+
+    publish_rate: float = parameter(
+        100.0, unit='Hz', low=0.1, high=1e4, meaning='ticks in a second of simulation time'
+    )
+    physics_step: float = parameter(
+        1e-3, unit='s', low=1e-6, high=0.1, meaning='longest step of the integrator'
+    )
+    real_time_factor: float = parameter(
+        1.0, low=1e-3, high=1e6, meaning='simulation time over wall time'
+    )
+    publish_clock: bool = parameter(
+        False, meaning='publish /clock; simulation time then starts at 0'
+    )
+    force_timeout: float = parameter(
+        0.5,
+        unit='s',
+        low=0.0,
+        high=1e6,
+        meaning='a force command older than this falls to zero, in simulation time; 0 = never',
+    )
+    covariance_floor: float = parameter(
+        1e-9,
+        low=1e-12,
+        high=1e6,
+        meaning='least variance on the diagonals of the odometry covariances, in SI units',
+    )
+    enable_odom_tf: bool = parameter(False, meaning='publish tf from odom to base_link')
+    odometry_noise: OdometryNoise = field(default=OdometryNoise())
+
+
+@dataclass(frozen=True)
+class ControllerSettings:
+    """The inner loop; of the model it needs the robot's measures only."""
+
+    fixed: ClassVar[tuple[str, ...]] = ('enable_stamped_cmd_vel',)
+
+    cmd_vel_timeout: float = parameter(
+        0.5,
+        unit='s',
+        low=0.0,
+        high=1e6,
+        meaning='a reference older than this falls to zero, in time of the odometry; 0 = never',
+    )
+    enable_stamped_cmd_vel: bool = parameter(False, meaning='cmd_vel is a TwistStamped')
+    pi: Gains = field(default=Gains())
+    robot: Robot = field(default=Robot())
+
+
+@dataclass(frozen=True)
+class RecorderSettings:
+    """What is recorded, and where to."""
+
+    fixed: ClassVar[tuple[str, ...]] = ('output', 'topics')
+
+    output: str = parameter('', meaning='folder of the new bag; empty names it by date and time')
+    topics: tuple[str, ...] = parameter(
+        (
+            'left_wheel/force',
+            'right_wheel/force',
+            'left_wheel/force_cmd',
+            'right_wheel/force_cmd',
+            'left_wheel/friction',
+            'right_wheel/friction',
+            'odom',
+            'joint_states',
+            'cmd_vel',
+        ),
+        meaning='topics to record',
+    )
+
+
+@dataclass(frozen=True)
+class DriverSettings:
+    """How long and how fast to drive. Mind the room: the drive turns, but does not look."""
+
+    duration: float = parameter(
+        120.0, unit='s', low=1.0, high=1e5, meaning='length of the drive, in time of the odometry'
+    )
+    fastest: float = parameter(0.8, unit='m/s', low=0.0, high=100.0, meaning='largest speed')
+    fastest_turn: float = parameter(
+        2.0, unit='rad/s', low=0.0, high=100.0, meaning='largest yaw rate'
+    )
+    seed: int = parameter(0, low=0, high=2**31 - 1, meaning='seed of the drive')
+
+
+# One file may hold the parameters of all nodes, so each node knows the names of the others.
+ALL = (SimulatorSettings, ControllerSettings, RecorderSettings, DriverSettings)
