@@ -1,0 +1,106 @@
+"""The inner loop as a node: wanted motion and odometry in, wheel forces out."""
+
+from functools import partial
+from math import isfinite
+
+from geometry_msgs.msg import Twist, TwistStamped, WrenchStamped
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+
+from diffbot_sim.control.held import NANOSECONDS, Held
+from diffbot_sim.control.pi import control, wheel_rates
+from diffbot_sim.nodes import conversions
+from diffbot_sim.nodes.outputs import DEPTH, SIDES
+from diffbot_sim.nodes.parameters import Live, Values, build, table
+from diffbot_sim.nodes.running import parse, parser, run
+from diffbot_sim.nodes.settings import ControllerSettings
+
+QUIET = 5.0  # [s] between repeated warnings
+LONGEST = 0.1  # [s]; a gap in the odometry must not wind up the integral
+
+
+class PiController(Node):
+    """Answers each odometry message with two forces; knows no time but the odometry's.
+
+    So it works in simulation time and at any speed of it.
+    """
+
+    def __init__(self) -> None:
+        super().__init__('pi_controller')
+        known = table(ControllerSettings)
+        live = Live(self, known, self._make, self._apply, ControllerSettings.fixed)
+        self._settings = live.value
+        self._stamp: int | None = None
+        self._references = dict.fromkeys(SIDES, Held())
+        self._integrals = dict.fromkeys(SIDES, 0.0)
+        self._connect()
+        self.get_logger().info('ready')
+
+    def _connect(self) -> None:
+        command = TwistStamped if self._settings.enable_stamped_cmd_vel else Twist
+        self._forces = {}
+        for side in SIDES:
+            wheel, act = f'{side}_wheel', partial(self._on_wheel_reference, side)
+            self._forces[side] = self.create_publisher(WrenchStamped, f'{wheel}/force_cmd', DEPTH)
+            self.create_subscription(TwistStamped, f'{wheel}/velocity_cmd', act, DEPTH)
+        self.create_subscription(command, 'cmd_vel', self._on_twist, DEPTH)
+        self.create_subscription(Odometry, 'odom', self._on_odometry, DEPTH)
+
+    def _on_twist(self, message: Twist | TwistStamped) -> None:
+        v, omega = conversions.twist_of(message)
+        if self._accepts('cmd_vel', v, omega):
+            for side, rate in zip(SIDES, wheel_rates(v, omega, self._settings.robot), strict=True):
+                self._references[side] = Held(rate, self._stamp or 0)
+
+    def _on_wheel_reference(self, side: str, message: TwistStamped) -> None:
+        rate = conversions.wheel_rate_of(message)
+        if self._accepts(f'{side}_wheel/velocity_cmd', rate):
+            self._references[side] = Held(rate, self._stamp or 0)
+
+    def _on_odometry(self, message: Odometry) -> None:
+        v, omega = conversions.twist_of(message)
+        if not self._accepts('odom', v, omega):
+            return
+        stamp = conversions.nanoseconds(message.header.stamp)
+        dt = self._advance(stamp)
+        for side, rate in zip(SIDES, wheel_rates(v, omega, self._settings.robot), strict=True):
+            force = self._control(side, rate, dt)
+            self._forces[side].publish(conversions.wrench(stamp, f'{side}_wheel_contact', force))
+
+    def _advance(self, stamp: int) -> float:
+        """Return the time [s] since the last odometry; begin anew where time jumps back."""
+        last, self._stamp = self._stamp, stamp
+        if last is not None and stamp >= last:
+            return min((stamp - last) / NANOSECONDS, LONGEST)
+        self._integrals = dict.fromkeys(SIDES, 0.0)
+        self._references = {s: Held(held.value, stamp) for s, held in self._references.items()}
+        return 0.0
+
+    def _control(self, side: str, rate: float, dt: float) -> float:
+        reference = self._references[side].at(self._stamp or 0, self._settings.cmd_vel_timeout)
+        force, self._integrals[side] = control(
+            self._settings.pi, self._integrals[side], reference, rate, dt
+        )
+        return force
+
+    def _accepts(self, topic: str, *values: float) -> bool:
+        if all(map(isfinite, values)):
+            return True
+        text = ', '.join(map(str, values))
+        self.get_logger().warning(
+            f'{topic}: {text} is no motion; refused', throttle_duration_sec=QUIET
+        )
+        return False
+
+    def _make(self, values: Values) -> ControllerSettings:
+        return build(ControllerSettings, values)
+
+    def _apply(self, settings: ControllerSettings) -> None:
+        self._settings = settings
+
+
+def main(argv: list[str]) -> int:
+    """Run the node until it is told to stop."""
+    about = 'Hold the wheels at the wanted speeds: cmd_vel and odometry in, wheel forces out.'
+    parse(parser('pi_controller', about, table(ControllerSettings)), argv)
+    return run(PiController, argv)

@@ -1,0 +1,137 @@
+"""Helpers for tests that talk to nodes in processes of their own."""
+
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from signal import SIGTERM
+from time import monotonic
+from typing import Any, NamedTuple
+
+import rclpy
+from geometry_msgs.msg import WrenchStamped
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+
+COMMAND = [sys.executable, '-m', 'diffbot_sim']
+PATIENCE = 120.0  # seconds; a first start compiles, and others may be compiling too
+
+
+class Running(NamedTuple):
+    """A node's process and the file that holds what it said."""
+
+    process: subprocess.Popen[bytes]
+    log: Path
+
+    def stop(self, number: int = SIGTERM) -> int:
+        """Send a signal and return the exit code."""
+        self.process.send_signal(number)
+        return self.process.wait(PATIENCE)
+
+    def said(self) -> str:
+        return self.log.read_text()
+
+
+@contextmanager
+def running(log: Path, *words: str) -> Iterator[Running]:
+    """Run a command until the end of the block."""
+    with log.open('wb') as file:
+        process = subprocess.Popen([*COMMAND, *words], stdout=file, stderr=subprocess.STDOUT)
+    try:
+        yield Running(process, log)
+    finally:
+        process.kill()
+        process.wait()
+
+
+def refusal(*words: str) -> str:
+    """Run a command that must end with exit code 1 and one line; return the line."""
+    result = subprocess.run(
+        [*COMMAND, *words], capture_output=True, text=True, timeout=PATIENCE, check=False
+    )
+    assert result.returncode == 1
+    (line,) = result.stderr.splitlines()
+    return line
+
+
+class Robot:
+    """Listens to one robot and drives it, from the test's own process."""
+
+    def __init__(self, namespace: str = '/') -> None:
+        if not rclpy.ok():
+            rclpy.init()  # for the whole session: what outlives its context crashes
+        self.node = Node('tester', namespace=namespace, start_parameter_services=False)
+        self.heard: dict[str, list[Any]] = {'odom': []}
+        self.node.create_subscription(Odometry, 'odom', self.heard['odom'].append, 100)
+        self._forces = {
+            side: self.node.create_publisher(WrenchStamped, f'{side}_wheel/force_cmd', 10)
+            for side in ('left', 'right')
+        }
+
+    def __enter__(self) -> 'Robot':
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.node.destroy_node()
+
+    def listen(self, kind: Any, topic: str) -> None:
+        """Collect a topic's messages from now on; return when the first one has come."""
+        self.heard[topic] = []
+        self.node.create_subscription(kind, topic, self.heard[topic].append, 100)
+        self.until(lambda: self.heard[topic])
+
+    def until(self, reached: Callable[[], Any], patience: float = PATIENCE) -> None:
+        """Spin until something is so; fail when it takes too long."""
+        end = monotonic() + patience
+        while not reached():
+            assert monotonic() < end, 'it did not happen'
+            rclpy.spin_once(self.node, timeout_sec=0.05)
+
+    def listeners(self) -> int:
+        """Count who hears the forces of both wheels."""
+        return min(force.get_subscription_count() for force in self._forces.values())
+
+    def catch_up(self) -> 'Robot':
+        """Drop what came while nobody listened."""
+        seen = -1
+        while (count := sum(map(len, self.heard.values()))) != seen:
+            seen = count
+            rclpy.spin_once(self.node, timeout_sec=0.0)
+        return self
+
+    def hear(self, count: int) -> list[Odometry]:
+        """Return the next odometry messages."""
+        odom = self.heard['odom']
+        odom.clear()
+        self.until(lambda: len(odom) >= count)
+        return odom[:count]
+
+    def push(self, right: float, left: float, count: int) -> list[Odometry]:
+        """Command forces at each odometry message; return these messages."""
+        self.until(self.listeners)
+        seen = []
+        for _ in range(count):
+            for side, force in (('right', right), ('left', left)):
+                message = WrenchStamped()
+                message.wrench.force.x = force
+                self._forces[side].publish(message)
+            seen += self.hear(1)
+        return seen
+
+    @contextmanager
+    def publishing(self, topic: str, message: Any) -> Iterator[None]:
+        """Publish a message at 20 Hz, whenever the node spins."""
+        publisher = self.node.create_publisher(type(message), topic, 10)
+        timer = self.node.create_timer(0.05, lambda: publisher.publish(message))
+        yield
+        self.node.destroy_timer(timer)
+        self.node.destroy_publisher(publisher)
+
+    def call(self, kind: Any, service: str, request: Any) -> Any:
+        client = self.node.create_client(kind, service)
+        self.until(client.service_is_ready)
+        future = client.call_async(request)
+        self.until(future.done)
+        self.node.destroy_client(client)
+        return future.result()
