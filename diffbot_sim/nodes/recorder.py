@@ -1,0 +1,120 @@
+"""Record topics to a bag: serialized messages as they come, closed cleanly at the end."""
+
+from datetime import datetime
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+from diffbot_sim.bags.raw import Offer, Raw, RawWriter, is_standard
+from diffbot_sim.nodes import conversions
+from diffbot_sim.nodes.parameters import Live, Values, build, table
+from diffbot_sim.nodes.running import overrides, parse, parser, run
+from diffbot_sim.nodes.settings import RecorderSettings
+
+WRENCH = 'geometry_msgs/msg/WrenchStamped'
+# Types of our own topics, to listen before anyone speaks; the others are waited for.
+KNOWN = {
+    **{f'{s}_wheel/{n}': WRENCH for s in ('left', 'right') for n in ('force', 'force_cmd')},
+    **{f'{s}_wheel/friction': WRENCH for s in ('left', 'right')},
+    'odom': 'nav_msgs/msg/Odometry',
+    'joint_states': 'sensor_msgs/msg/JointState',
+}
+LOOK_AGAIN = 0.2  # [s] between looks at who publishes
+DEPTH = 1000  # messages that may wait while the disk is busy
+
+
+class Source(NamedTuple):
+    """How a topic is published, as far as a listener must know."""
+
+    kind: str
+    offer: Offer
+
+
+class Recorder(Node):
+    """Listens to topics with the quality of service that their publishers offer."""
+
+    def __init__(self, chosen: list[Any]) -> None:
+        super().__init__('recorder', parameter_overrides=chosen)
+        live = Live(self, table(RecorderSettings), self._make, self._apply, RecorderSettings.fixed)
+        folder = Path(live.value.output or f'{datetime.now():rosbag2_%Y_%m_%d-%H_%M_%S}')
+        self._writer = RawWriter(folder)
+        self._sources: dict[str, Source] = {}
+        self._listeners: dict[str, Any] = {}
+        self._heard: set[str] = set()
+        self._wanted = live.value.topics
+        self._look()
+        self.create_timer(LOOK_AGAIN, self._look)
+        self.get_logger().info(f'recording to {folder}')
+
+    def destroy_node(self) -> None:
+        """Finish the bag, then end the node."""
+        self._writer.close()
+        if silent := [topic for topic in self._wanted if topic not in self._heard]:
+            self.get_logger().warning(f'nothing came on {", ".join(silent)}')
+        super().destroy_node()
+
+    def _look(self) -> None:
+        """Listen to what is published; anew where a publisher offers something else."""
+        for topic in self._wanted:
+            source = self._source(topic)
+            if source is None or source == self._sources.get(topic):
+                continue
+            if listener := self._listeners.get(topic):
+                self.destroy_subscription(listener)
+            self._sources[topic] = source
+            self._listeners[topic] = self._listen(topic, source)
+
+    def _source(self, topic: str) -> Source | None:
+        publishers = self.get_publishers_info_by_topic(topic)
+        if not publishers:
+            return self._sources.get(topic) or (
+                Source(KNOWN[topic], Offer()) if topic in KNOWN else None
+            )
+        # The weakest offer: a listener that asks for more hears nothing from that publisher.
+        reliable = all(p.qos_profile.reliability == ReliabilityPolicy.RELIABLE for p in publishers)
+        kept = all(
+            p.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for p in publishers
+        )
+        offer = Offer(
+            'reliable' if reliable else 'best_effort', 'transient_local' if kept else 'volatile'
+        )
+        return Source(publishers[0].topic_type, offer)
+
+    def _listen(self, topic: str, source: Source) -> Any:
+        kind = conversions.message_type(source.kind) if is_standard(source.kind) else None
+        if kind is None:
+            self.get_logger().warning(f'{topic}: {source.kind} is not known here; left out')
+            return None
+        quality = QoSProfile(
+            depth=DEPTH,
+            reliability=ReliabilityPolicy[source.offer.reliability.upper()],
+            durability=DurabilityPolicy[source.offer.durability.upper()],
+        )
+        act = partial(self._on_message, topic, source)
+        return self.create_subscription(kind, topic, act, quality, raw=True)
+
+    def _on_message(self, topic: str, source: Source, data: bytes) -> None:
+        if not self._heard:
+            self.get_logger().info(f'first message: {topic}')
+        self._heard.add(topic)
+        stamp = self.get_clock().now().nanoseconds
+        name = self._listeners[topic].topic_name
+        self._writer.write(Raw(stamp, name, source.kind, data), source.offer)
+
+    def _make(self, values: Values) -> RecorderSettings:
+        return build(RecorderSettings, values)
+
+    def _apply(self, settings: RecorderSettings) -> None:
+        """Nothing can change while it records."""
+
+
+def main(argv: list[str]) -> int:
+    """Record until told to stop; raises DiffbotError where the bag cannot be written."""
+    options = parser('recorder', __doc__ or '', table(RecorderSettings))
+    options.add_argument('-o', '--output', metavar='DIR', help='folder of the new bag')
+    options.add_argument('--topics', nargs='+', metavar='TOPIC', help='topics to record')
+    chosen = overrides(RecorderSettings, parse(options, argv))
+    return run(lambda: Recorder(chosen), argv)

@@ -1,0 +1,130 @@
+"""Recorder and replay as processes: what was driven comes back."""
+
+from pathlib import Path
+from signal import SIGINT, SIGTERM
+
+import numpy as np
+import pytest
+from ros_robot import Robot, refusal, running
+from rosbags.rosbag2 import Reader
+from std_srvs.srv import Empty
+
+from diffbot_sim.bags import read_run
+from diffbot_sim.bags.raw import Raw, RawWriter
+from diffbot_sim.errors import BagError
+from diffbot_sim.nodes.conversions import pose_of, twist_of
+from diffbot_sim.physics import Model, simulate
+
+PUSHES = ((12.0, 11.0, 40), (0.0, 0.0, 160))
+COUNT = sum(count for *_, count in PUSHES)
+
+
+@pytest.fixture(scope='module')
+def robot():
+    with Robot() as robot:
+        yield robot
+
+
+@pytest.fixture(scope='module')
+def simulator(tmp_path_factory, robot):
+    with running(tmp_path_factory.mktemp('sim') / 'log', 'simulator') as process:
+        robot.hear(1)
+        yield process
+
+
+@pytest.fixture(scope='module')
+def bag(tmp_path_factory, robot, simulator):
+    """Record a drive of pushes and a stop; end the recording with SIGTERM."""
+    folder = tmp_path_factory.mktemp('recorder')
+    with running(folder / 'log', 'recorder', '--output', str(folder / 'bag')) as recorder:
+        robot.until(lambda: 'first message' in recorder.said())
+        robot.until(lambda: robot.listeners() > 1)
+        for push in PUSHES:
+            robot.push(*push)
+        assert recorder.stop(SIGTERM) == 0
+    assert 'Traceback' not in recorder.said()
+    return folder / 'bag'
+
+
+def recorded(bag: Path) -> dict[str, int]:
+    with Reader(bag) as reader:
+        return {item.topic: item.msgcount for item in reader.connections}
+
+
+def test_a_recording_holds_every_message_of_every_topic(bag):
+    counts = recorded(bag)
+    wheels = [f'/{s}_wheel/{n}' for s in ('left', 'right') for n in ('force', 'friction')]
+    assert min(counts[topic] for topic in ['/odom', '/joint_states', *wheels]) >= COUNT
+    sent = [counts[f'/{side}_wheel/force_cmd'] for side in ('left', 'right')]
+    assert min(sent) >= COUNT - 2  # one may be on its way when the signal comes
+
+
+def test_the_quality_of_service_is_recorded(bag):
+    with Reader(bag) as reader:
+        (quality,) = reader.connections[0].ext.offered_qos_profiles
+    assert (quality.reliability.name, quality.durability.name) == ('RELIABLE', 'VOLATILE')
+
+
+def test_the_model_driven_with_the_recorded_forces_repeats_the_recorded_motion(bag):
+    run = read_run(bag).run
+    odom = run.odometry
+    predicted = simulate(Model(), run.commands, odom.time, max_step=1e-3)
+    np.testing.assert_allclose(predicted.twist, odom.twist, atol=1e-6)
+    np.testing.assert_allclose(predicted.pose, odom.pose, atol=1e-6)
+    assert np.abs(odom.twist).max() > 0.2
+
+
+def test_replaying_a_bag_moves_the_robot_as_recorded(bag, robot, simulator, tmp_path):
+    end = read_run(bag).run.odometry.pose[-1]
+    robot.call(Empty, 'simulator/reset', Empty.Request())
+    with running(tmp_path / 'log', 'replay', str(bag)) as replay:
+        robot.until(lambda: replay.process.poll() is not None)
+    assert replay.process.returncode == 0
+    # Who replays meets ticks at another phase, and a busy machine delays both.
+    message = robot.catch_up().hear(1)[0]
+    assert twist_of(message) == (0.0, 0.0)
+    assert pose_of(message) == pytest.approx(tuple(end), rel=0.25, abs=0.1)
+
+
+def test_any_topic_replays_faster_into_another_namespace(bag, robot, tmp_path):
+    words = ('--topics', 'odom', '--rate', '4', '--ros-args', '-r', '__ns:=/other')
+    with Robot('/other') as other:
+        with running(tmp_path / 'log', 'replay', str(bag), *words) as replay:
+            other.until(lambda: replay.process.poll() is not None)
+        assert len(other.heard['odom']) == recorded(bag)['/odom']
+
+
+def test_a_running_replay_ends_quietly_on_ctrl_c(bag, robot, simulator, tmp_path):
+    with running(tmp_path / 'log', 'replay', str(bag), '--loop', '--rate', '0.1') as replay:
+        robot.until(lambda: 'replaying' in replay.said())
+        assert replay.stop(SIGINT) == 0
+    assert 'Traceback' not in replay.said()
+
+
+def test_a_recorder_refuses_a_folder_that_exists(tmp_path):
+    assert 'exists already' in refusal('recorder', '--output', str(tmp_path))
+
+
+def test_replay_says_what_is_wrong_with_a_bag(bag, tmp_path):
+    assert 'there is no such bag' in refusal('replay', str(tmp_path / 'none'))
+    assert 'The bag holds /joint_states' in refusal('replay', str(bag), '--topics', 'image')
+
+
+def test_an_unfinished_bag_is_told(tmp_path):
+    writer = RawWriter(tmp_path / 'bag')
+    writer.write(Raw(1, '/odom', 'nav_msgs/msg/Odometry', bytes(8)))
+    assert 'cut off' in refusal('replay', str(tmp_path / 'bag'))
+    with pytest.raises(BagError, match='exists already'):
+        RawWriter(tmp_path / 'bag')
+
+
+@pytest.mark.parametrize('node', ['simulator', 'pi_controller', 'recorder', 'replay'])
+def test_help_is_there_without_ros(node, tmp_path):
+    with running(tmp_path / 'log', node, '--help') as helped:
+        assert helped.process.wait(30.0) == 0
+    assert 'usage' in helped.said()
+
+
+def test_the_simulator_ends_quietly_on_ctrl_c(simulator):
+    assert simulator.stop(SIGINT) == 0
+    assert 'Traceback' not in simulator.said()
