@@ -22,7 +22,7 @@ from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.selection import UNSEEN, Selection, Trial, select
 from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch, split, whole
-from diffbot_sim.identification.structure import find_structure
+from diffbot_sim.identification.structure import describe, find_structure, outdone
 from diffbot_sim.identification.uncertainty import estimates
 from diffbot_sim.physics.effects import Effect, library
 from diffbot_sim.physics.model import Model
@@ -55,7 +55,7 @@ def identify(
     base = fit_prediction(recalibrated.space, fitted, recalibrated.u, FIRST_GAINS)
     selection = select(base, tried, held_out, progress)
     progress('looking for structure that is left')
-    unexplained = find_structure(Screen(selection.final), held_out)
+    selection, unexplained = _doubt(selection, held_out)
     final = _for_simulation(selection, recalibrated)
     comparisons = compare_models(declared, recalibrated.model, final, held_out)
     return Identification(
@@ -87,6 +87,17 @@ def _candidates(declared: Model, kinds: Sequence[type[Effect]] | None) -> tuple[
     present = {effect.name for effect in declared.effects}
     chosen = library().values() if kinds is None else kinds
     return tuple(kind for kind in chosen if kind.name not in present)
+
+
+def _doubt(
+    selection: Selection, held_out: Sequence[Stretch]
+) -> tuple[Selection, Structure | None]:
+    """Withdraw names that a free-form force outdoes; return what is left without a name."""
+    for kind in selection.final.space.kinds:
+        better = outdone(selection.without[kind.name], selection.final, kind)
+        if better is not None:
+            return selection.withdrawn(kind.name), describe(better)
+    return selection, find_structure(Screen(selection.final), held_out)
 
 
 def _for_simulation(selection: Selection, recalibrated: Fit) -> Fit:

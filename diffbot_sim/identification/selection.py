@@ -1,7 +1,7 @@
 """Which effects enter: forward while the evidence is beyond doubt, then backward."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -42,6 +42,7 @@ class Trial:
 
 SUPPORTED = 'supported'
 CHANCE = 'no better than chance'
+OUTDONE = 'resembles what acts, but a free-form force explains more'
 UNSEEN = 'not excited by this drive'
 
 
@@ -50,15 +51,30 @@ class Selection:
     """Where the search ended.
 
     base: the nominal fit; final: the chosen one; trials: the last trial of each effect, best
-    first; alternatives: for each effect chosen, those that the data cannot tell from it;
-    support: for each effect chosen, the evidence for it within the final structure.
+    first; without: for each effect chosen, the fit that lacks it; support: the evidence for it
+    within the final structure; alternatives: those that the data cannot tell from it.
     """
 
     base: Fit
     final: Fit
     trials: tuple[Trial, ...]
-    alternatives: dict[str, tuple[str, ...]]
+    without: dict[str, Fit]
     support: dict[str, Evidence]
+    alternatives: dict[str, tuple[str, ...]]
+
+    def withdrawn(self, name: str) -> 'Selection':
+        """Return the selection without one of the effects chosen."""
+        kept = [key for key in self.support if key != name]
+        return replace(
+            self,
+            final=self.without[name],
+            trials=tuple(
+                replace(trial, outcome=OUTDONE) if trial.kind.name == name else trial
+                for trial in self.trials
+            ),
+            support={key: self.support[key] for key in kept},
+            alternatives={key: self.alternatives[key] for key in kept},
+        )
 
 
 def select(
@@ -78,11 +94,13 @@ def select(
         best = max(entering, key=lambda trial: trial.evidence.delta_bic)
         progress(f'{best.kind.name} enters')
         current = best.fit or current
-    final, support = _prune(current, len(kinds), held_out, progress)
-    chosen = {kind.name for kind in final.space.kinds}
+    final, without, support = _prune(current, len(kinds), held_out, progress)
+    chosen = set(without)
     trials = sorted(last.values(), key=lambda t: (t.kind.name in chosen, t.evidence.delta_bic))
-    alternatives = {name: _alternatives(final, name, kinds, progress) for name in chosen}
-    return Selection(base, final, tuple(reversed(trials)), alternatives, support)
+    alternatives = {
+        name: _alternatives(final, rest, kinds, progress) for name, rest in without.items()
+    }
+    return Selection(base, final, tuple(reversed(trials)), without, support, alternatives)
 
 
 def judge(evidence: Evidence, tried: int) -> str:
@@ -124,7 +142,7 @@ def _try(screen: Screen, kind: type[Effect], held_out: Sequence[Stretch], tried:
 
 def _prune(
     fit: Fit, tried: int, held_out: Sequence[Stretch], progress: Progress
-) -> tuple[Fit, dict[str, Evidence]]:
+) -> tuple[Fit, dict[str, Fit], dict[str, Evidence]]:
     """Take out, one by one, effects that later ones have made needless."""
     while True:
         support, smaller = dict[str, Evidence](), dict[str, Fit]()
@@ -138,17 +156,16 @@ def _prune(
             if evidence.p_value * tried > LIKELIHOOD_LEVEL or evidence.delta_bic <= 0.0
         ]
         if not needless:
-            return fit, support
+            return fit, smaller, support
         worst = min(needless, key=lambda name: support[name].delta_bic)
         progress(f'{worst} leaves')
         fit = smaller[worst]
 
 
 def _alternatives(
-    final: Fit, name: str, kinds: Sequence[type[Effect]], progress: Progress
+    final: Fit, rest: Fit, kinds: Sequence[type[Effect]], progress: Progress
 ) -> tuple[str, ...]:
-    """Return effects that, in place of one that was found, explain the data as well."""
-    rest = reduce(final, name)
+    """Return effects that, added to the rest, explain the data as well as what was found."""
     screen = Screen(rest)
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
     present = {effect.name for effect in final.model.effects}
@@ -159,7 +176,7 @@ def _alternatives(
         score = screen.score(kind)
         if not score.seen or score.ratio < RIVAL_SHARE * worth:
             continue
-        progress(f'trying {kind.name} in place of {name}')
+        progress(f'trying {kind.name} as an alternative')
         if delta_bic(extend(screen, kind, score), final) < INDISTINGUISHABLE:
             found.append(kind.name)
     return tuple(found)

@@ -8,16 +8,21 @@ from scipy import stats
 
 from diffbot_sim.identification.bases import Basis, bases
 from diffbot_sim.identification.evidence import block_gain, sandwich, wald_p
-from diffbot_sim.identification.fitting import Fit, whitened
+from diffbot_sim.identification.fitting import Fit, huber, whitened
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch
+from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
 
 # As strict as the entry of an effect: chance over all dependences tried, disturbances, held out.
-LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_LEVEL = 1e-3, 1e-2, 0.02
+LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_LEVEL = 1e-3, 1e-2, 0.05
+# By how much in BIC a free form must beat an effect before the effect's name is withdrawn.
+OUTDONE = 10.0
+# Largest fall of the loss that one held-out sample may stand for.
+MOST_OF_SAMPLE = 4.0
 WORDS = {
     'v': 'the speed',
     'omega': 'the yaw rate',
@@ -61,8 +66,23 @@ def find_structure(screen: Screen, held_out: Sequence[Stretch]) -> Structure | N
         if not beyond_chance or dependence.p_block > BLOCK_LEVEL:
             continue
         if _held_out_chance(screen.fit, dependence, held_out) < HELD_OUT_LEVEL:
-            return _describe(dependence)
+            return describe(dependence)
     return None
+
+
+def outdone(rest: Fit, final: Fit, kind: type[Effect]) -> Dependence | None:
+    """Return a free-form force that explains more than an effect does, if there is one.
+
+    rest: the fit that lacks the effect, final: the one that has it. An effect of the right kind
+    needs fewer parameters than any free form; one that is outdone only resembles what acts.
+    """
+    screen = Screen(rest)
+    size = float(np.log(rest.whitened.size))
+    worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
+    named = max(worth, screen.score(kind).ratio) - len(kind.specs()) * size
+    best = dependences(screen)[0]
+    free = best.fall - len(best.amounts) * size
+    return best if free > named + OUTDONE and best.p_block < BLOCK_LEVEL else None
 
 
 def _try(screen: Screen, basis: Basis) -> Dependence:
@@ -99,10 +119,13 @@ def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretc
     errors = whitened(begun, fit.model, fit.gains, fit.sigma)
     change = sensitivity(fit, begun, twin) @ dependence.amounts
     change = change + fit.jacobian_on(begun) @ dependence.adaptation
-    return block_gain((errors**2 - (errors + change) ** 2).sum(axis=1))[1]
+    # Where a wheel starts or stops a first-order change means nothing: no sample may say much.
+    gain = np.clip(huber(errors) - huber(errors + change), -MOST_OF_SAMPLE, MOST_OF_SAMPLE)
+    return block_gain(gain.sum(axis=1))[1]
 
 
-def _describe(dependence: Dependence) -> Structure:
+def describe(dependence: Dependence) -> Structure:
+    """Put a dependence into words and a curve."""
     basis = dependence.basis
     knots, curve, error = basis.curve(dependence.amounts, dependence.spread)
     strength = basis.strength(dependence.amounts)
