@@ -24,6 +24,10 @@ from diffbot_sim.records import Array
 LOCATION = 1e-11
 # Events in one step beyond this many are grazing contacts; they are left to stick.
 MOST_EVENTS = 64
+# A step is halved, at most so often, while its stages disagree: there the method is unstable.
+MOST_HALVINGS = 12
+# The stages of y' = -λ y disagree by λ h / 2, and the method is stable up to λ h = 2.78.
+DISAGREEMENT = 1.25
 
 
 @compiled
@@ -54,7 +58,7 @@ def advance(
         z[:] = work[0]
         if event:
             contact.arrive(z, modes)
-        events += 1
+            events += 1
         done = duration if taken == left else done + taken
 
 
@@ -92,39 +96,83 @@ def _step_to_event(
     duration: float,
     work: Array,
     held: bool,
-) -> tuple:
+) -> tuple[float, bool]:
     """Leave in work[0] the state after the step, or at its first event; return (taken, event)."""
-    high = duration
-    _runge_kutta(laws, params, states, z, modes, inputs, time, high, work)
-    after = _margin(laws, params, states, work[0], modes, inputs, time, high, held)
+    step = _stable_step(laws, params, states, z, modes, inputs, time, duration, work)
+    if step == 0.0:
+        return duration, False
+    after = _margin(laws, params, states, work[0], modes, inputs, time, step, held)
     if after >= 0.0:
-        high = _turning_point(z, work, modes, duration)
-        if high >= duration:
-            return duration, False
+        high = _turning_point(z, work, modes, step)
+        if high >= step:
+            return step, False
         _runge_kutta(laws, params, states, z, modes, inputs, time, high, work)
         after = _margin(laws, params, states, work[0], modes, inputs, time, high, held)
         if after >= 0.0:
-            _runge_kutta(laws, params, states, z, modes, inputs, time, duration, work)
-            return duration, False
-    low, side = 0.0, 0
+            _runge_kutta(laws, params, states, z, modes, inputs, time, step, work)
+            return step, False
+        step = high
+    event = _locate(laws, params, states, z, modes, inputs, time, step, work, held, after)
+    _runge_kutta(laws, params, states, z, modes, inputs, time, event, work)
+    return event, True
+
+
+@compiled
+def _stable_step(
+    laws: Laws,
+    params: Array,
+    states: Array,
+    z: Array,
+    modes: Modes,
+    inputs: Inputs,
+    time: float,
+    duration: float,
+    work: Array,
+) -> float:
+    """Take the longest stable step that halving the duration gives; return it, 0 if none does."""
+    step = duration
+    for _ in range(MOST_HALVINGS + 1):
+        if _runge_kutta(laws, params, states, z, modes, inputs, time, step, work):
+            return step
+        step *= 0.5
+    return 0.0
+
+
+@compiled
+def _locate(
+    laws: Laws,
+    params: Array,
+    states: Array,
+    z: Array,
+    modes: Modes,
+    inputs: Inputs,
+    time: float,
+    high: float,
+    work: Array,
+    held: bool,
+    after: float,
+) -> float:
+    """Return the length of the step that ends just past the event; high and after bound it.
+
+    Illinois variant of regula falsi; halving where the secant does not help.
+    """
+    low, side, precision = 0.0, 0, LOCATION * high
     before = max(_margin(laws, params, states, z, modes, inputs, time, 0.0, held), 0.0)
-    while high - low > LOCATION * duration:
-        # Illinois variant of regula falsi; halving where the secant does not help.
+    while high - low > precision:
         trial = high - after * (high - low) / (after - before)
         if not low < trial < high:
             trial = 0.5 * (low + high)
         _runge_kutta(laws, params, states, z, modes, inputs, time, trial, work)
         value = _margin(laws, params, states, work[0], modes, inputs, time, trial, held)
-        if value < 0.0:
-            high, after = trial, value
-            before = 0.5 * before if side < 0 else before
-            side = -1
-        else:
+        if value >= 0.0:
             low, before = trial, value
             after = 0.5 * after if side > 0 else after
             side = 1
-    _runge_kutta(laws, params, states, z, modes, inputs, time, high, work)
-    return high, True
+        else:  # nan too: a stage overshot so far that (13) overflowed
+            high, after = trial, value
+            before = 0.5 * before if side < 0 else before
+            side = -1
+    return high
 
 
 @compiled
@@ -187,8 +235,11 @@ def _runge_kutta(
     time: float,
     h: float,
     work: Array,
-) -> None:
-    """Leave in work[0] the state after the classical fourth-order step of h, in work[1] k1."""
+) -> bool:
+    """Leave in work[0] the state after the classical fourth-order step of h, in work[1] k1.
+
+    Return whether h is short enough for the method to be stable.
+    """
     half, probe = 0.5 * h, work[0]
     probe[:] = z
     k1 = _derivative(laws, params, states, probe, modes, inputs, time, 0.0)
@@ -204,6 +255,10 @@ def _runge_kutta(
     k4 = _derivative(laws, params, states, probe, modes, inputs, time, h)
     for i in range(STATE_SIZE):
         probe[i] = z[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i])
+    first = abs(k2[SPEED_RIGHT] - k1[SPEED_RIGHT]) + abs(k2[SPEED_LEFT] - k1[SPEED_LEFT])
+    second = abs(k3[SPEED_RIGHT] - k2[SPEED_RIGHT]) + abs(k3[SPEED_LEFT] - k2[SPEED_LEFT])
+    size = abs(k1[SPEED_RIGHT]) + abs(k1[SPEED_LEFT])
+    return second <= DISAGREEMENT * first + 1e-6 * size
 
 
 @compiled
