@@ -75,7 +75,7 @@ def sliding_reaction(at: Motion, now: Instant, modes: Modes) -> Reaction:
 
 
 @compiled
-def accelerations(now: Instant, reaction: Reaction, modes: Modes) -> tuple:
+def accelerations(now: Instant, reaction: Reaction, modes: Modes) -> tuple[float, float]:
     """Return dv_R/dt and dv_L/dt [m/s²], exactly 0.0 for a wheel that sticks."""
     along = (now.force - (reaction.right + reaction.left)) / now.mass
     if modes[YAW] == 0:
@@ -211,20 +211,43 @@ def _break_rest(
 ) -> bool:
     """Find how a resting robot starts to move: the one pattern whose motion agrees with itself.
 
-    Dry friction is maximally dissipative, so the pattern exists and is unique but for ties;
-    patterns that keep a contact stuck are tried first.
+    Dry friction is maximally dissipative, so the pattern exists and is unique but for ties, as
+    long as friction does not drop when sliding starts. Where it does (coulomb_stiction), a wheel
+    that cannot rest slides, and any other contact stays stuck where it can.
     """
+    now = instant_at(laws, params, states, at, inputs, modes)
+    torn_right, torn_left = _cannot_rest(laws, params, states, at, inputs, now)
     trial = np.empty(3, np.int64)
-    for stuck in (1, 0):
+    for torn_may_stick, stuck in ((False, 1), (False, 0), (True, 1)):
         for right in (1, -1, 0):
             for left in (1, -1, 0):
                 for yaw in (1, -1, 0) if modes[YAW] != FREE else (FREE, FREE, FREE):
                     trial[:] = (right, left, yaw)
                     kept = (right == 0) + (left == 0) + (yaw == 0)
-                    if kept == stuck and _consistent(laws, params, states, at, inputs, trial):
+                    sticks = (torn_right and right == 0) or (torn_left and left == 0)
+                    if kept != stuck or sticks != torn_may_stick:
+                        continue
+                    if _consistent(laws, params, states, at, inputs, trial):
                         modes[:] = trial
                         return True
     return False
+
+
+@compiled
+def _cannot_rest(
+    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, now: Instant
+) -> tuple[bool, bool]:
+    """Tell which wheels exceed their limit at rest, whatever yaw friction takes."""
+    forward = evaluate(laws, params, states, at, inputs, 1.0, 1.0)
+    backward = evaluate(laws, params, states, at, inputs, -1.0, -1.0)
+    low = (now.torque - now.dry_torque) / now.b
+    high = (now.torque + now.dry_torque) / now.b
+    return (
+        now.force + low > 2.0 * forward.static_right
+        or now.force + high < -2.0 * backward.static_right,
+        now.force - high > 2.0 * forward.static_left
+        or now.force - low < -2.0 * backward.static_left,
+    )
 
 
 @compiled
