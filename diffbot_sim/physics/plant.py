@@ -145,7 +145,7 @@ def _step(  # type: ignore[no-untyped-def]
 ) -> None:
     """Advance under held forces and observe the result."""
     inputs = Inputs(right, left, 0.0, 0.0)
-    count = int(np.ceil(duration / max_step - 1e-6))
+    count = max(1, int(np.ceil(duration / max_step - 1e-6)))
     for i in range(count):
         step = duration / count
         advance(laws, settle, params, states, z, modes, inputs, time + i * step, step, work)
