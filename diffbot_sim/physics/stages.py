@@ -91,7 +91,7 @@ class Balance(NamedTuple):
     gravity_y: float
 
 
-def numba_type(value: type[NamedTuple]) -> Any:  # type: ignore[valid-type]
+def numba_type(value: type[NamedTuple]) -> Any:
     """Return the compiled type of one of the tuples above."""
     return types.NamedUniTuple(types.float64, len(value._fields), value)
 
