@@ -91,11 +91,12 @@ def _run(
 def excitation(seed: int, duration: float = 120.0, rig: Rig | None = None) -> Commands:
     """Return forces for forward, backward and turning drives, stops, and pushes that do nothing.
 
-    Each force's terminal speed lies within FASTEST, so the robot's speed does as well.
+    The robot stands for the first second, as one does when a recording begins. Each force's
+    terminal speed lies within FASTEST, so the robot's speed does as well.
     """
     rig, random = rig or Rig(), np.random.default_rng(seed)
     time = np.arange(round(duration / BEAT)) * BEAT
-    force, begin, last = np.zeros((len(time), 2)), 0, np.zeros(2)
+    force, begin, last = np.zeros((len(time), 2)), round(1.0 / BEAT), np.zeros(2)
     while begin < len(time):
         end = begin + round(random.uniform(0.5, 3.0) / BEAT)
         goal = _goal(rig, random)
