@@ -1,4 +1,4 @@
-"""Parameter fields: one declaration gives YAML keys, ROS parameters, fit bounds and report rows."""
+"""Parameter fields: one declaration for YAML keys, ROS parameters, fit bounds, report rows."""
 
 from dataclasses import MISSING, dataclass, field, fields
 from difflib import get_close_matches
@@ -28,7 +28,8 @@ class Spec:
         """The valid values in words."""
         if self.choices:
             return 'one of ' + ', '.join(self.choices)
-        return f'{self.low:g} to {self.high:g} {self.unit}'.rstrip()
+        unit = self.unit.removeprefix('-')
+        return f'{self.low:g} to {self.high:g} {unit}'.rstrip()
 
     def fault(self, value: object) -> str | None:
         """Say what is wrong with a value, or None."""
@@ -36,7 +37,8 @@ class Spec:
             return None if value in self.choices else self._refuse(value)
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             return self._refuse(value)
-        inside = isfinite(value) and self.low <= value <= self.high
+        # The comparison comes first: it takes integers of any size, isfinite does not.
+        inside = self.low <= value <= self.high and isfinite(value)
         return None if inside else self._refuse(value)
 
     def _refuse(self, value: object) -> str:

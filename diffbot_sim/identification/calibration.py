@@ -20,7 +20,7 @@ def calibrate(space: Space, stretches: tuple[Stretch, ...]) -> Fit:
     """Fit by simulation error; the error surface has local minima, hence the several starts."""
     starts = _starts(space)
     errors = [_errors(space, stretches, start) for start in starts]
-    scale = np.median([np.mean(np.abs(e), axis=0) for e in errors], axis=0)
+    scale = np.maximum(np.median([np.mean(np.abs(e), axis=0) for e in errors], axis=0), 1e-12)
     order = np.argsort([float(huber(e / scale).sum()) for e in errors])[:FOLLOWED]
     followed = [fit_simulation(space, stretches, starts[index], SHORT) for index in order]
     return fit_simulation(space, stretches, min(followed, key=simulation_error).u)

@@ -84,7 +84,7 @@ def select(
     progress: Progress,
 ) -> Selection:
     """Search the structures made of these effects."""
-    current, last = base, dict[str, Trial]()
+    current, last, path = base, dict[str, Trial](), [base]
     while len(current.space.kinds) < MOST_EFFECTS:
         trials = _try_all(current, kinds, held_out, progress)
         last.update({trial.kind.name: trial for trial in trials})
@@ -94,7 +94,8 @@ def select(
         best = max(entering, key=lambda trial: trial.evidence.delta_bic)
         progress(f'{best.kind.name} enters')
         current = best.fit or current
-    final, without, support = _prune(current, len(kinds), held_out, progress)
+        path.append(current)
+    final, without, support = _prune(path, len(kinds), held_out, progress)
     chosen = set(without)
     trials = sorted(last.values(), key=lambda t: (t.kind.name in chosen, t.evidence.delta_bic))
     alternatives = {
@@ -141,15 +142,23 @@ def _try(screen: Screen, kind: type[Effect], held_out: Sequence[Stretch], tried:
 
 
 def _prune(
-    fit: Fit, tried: int, held_out: Sequence[Stretch], progress: Progress
+    path: Sequence[Fit], tried: int, held_out: Sequence[Stretch], progress: Progress
 ) -> tuple[Fit, dict[str, Fit], dict[str, Evidence]]:
-    """Take out, one by one, effects that later ones have made needless."""
+    """Take out, one by one, effects that later ones have made needless.
+
+    path: the fits of the forward search; what it has fitted is not fitted again.
+    """
+    known = {frozenset(fit.space.kinds): fit for fit in path}
+    fit = path[-1]
     while True:
         support, smaller = dict[str, Evidence](), dict[str, Fit]()
         for kind in fit.space.kinds:
-            progress(f'trying without {kind.name}')
-            smaller[kind.name] = reduce(fit, kind.name)
-            support[kind.name] = compare(smaller[kind.name], fit, held_out)
+            rest = frozenset(fit.space.kinds) - {kind}
+            if rest not in known:
+                progress(f'trying without {kind.name}')
+                known[rest] = reduce(fit, kind.name)
+            smaller[kind.name] = known[rest]
+            support[kind.name] = compare(known[rest], fit, held_out)
         needless = [
             name
             for name, evidence in support.items()

@@ -48,8 +48,8 @@ class Plant:
 
     @model.setter
     def model(self, model: Model) -> None:
-        twist = self.twist
-        self._z = np.concatenate([self._z[:5], initial_vector(model, State(0, 0, 0, *twist))[5:]])
+        if model.robot.wheel_separation != self._model.robot.wheel_separation:
+            self._z[5:] = initial_vector(model, State(0.0, 0.0, 0.0, *self.twist))[5:]
         self._install(model)
 
     def step(self, force_right: float, force_left: float, duration: float) -> None:

@@ -69,11 +69,33 @@ def initial_vector(model: Model, start: State) -> Array:
 
 
 def initial_states(model: Model, commands: Commands, time: float) -> Array:
-    """Return the effect states of a robot that has had its present command for long."""
-    last = int(np.searchsorted(commands.time, time, side='right')) - 1
-    force = commands.force[last] if last >= 0 else (0.0, 0.0)
-    traction = Traction(float(force[0]), float(force[1]))
-    return np.array([s for effect in model.effects for s in effect.initial_state(traction)])
+    """Return the effect states at a time [s]: what the commands before it have left behind.
+
+    The first command is taken to have acted for long; before it the force is 0.
+    """
+    known = len(commands.time) > 0 and commands.time[0] <= time
+    first = Traction(*map(float, commands.force[0])) if known else Traction(0.0, 0.0)
+    states = np.array([s for effect in model.effects for s in effect.initial_state(first)])
+    if known and len(states) > 0:
+        _, settle = compose(tuple(type(effect) for effect in model.effects))
+        stamps, force = map(np.ascontiguousarray, (commands.time, commands.force))
+        _settle_through(settle, model.pack(), states, np.zeros(STATE_SIZE), stamps, force, time)
+    return states
+
+
+@entry(
+    types.void(FUNCTION_TYPES[1], ARRAY, ARRAY, ARRAY, ARRAY, MATRIX, types.float64),
+)
+def _settle_through(  # type: ignore[no-untyped-def]
+    settle, params, states, z, command_time, force, until
+) -> None:
+    """Let the effect states live through all commands up to a time [s]."""
+    for k, begin in enumerate(command_time):
+        if begin >= until:
+            break
+        end = min(until, command_time[k + 1]) if k + 1 < len(command_time) else until
+        at = motion_at(params, z, begin, end - begin)
+        settle(params, states, at, Inputs(force[k, 0], force[k, 1], 0.0, 0.0))
 
 
 @compiled

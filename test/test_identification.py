@@ -1,0 +1,106 @@
+"""Identification of robots like our own, whose truth is known."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
+from diffbot_sim.errors import DataError
+from diffbot_sim.identification import identify
+from diffbot_sim.identification.result import Identification
+from diffbot_sim.physics import Friction, Model, Robot
+from diffbot_sim.physics.effects import library
+from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
+from diffbot_sim.records import Commands, Odometry, Run
+
+DECLARED = Model(
+    Robot(mass=11.0, inertia=0.35), Friction(mu_coulomb=0.035, mu_static=0.045, mu_viscous=0.07)
+)
+SMOOTH, ROUGH = Surroundings(), Surroundings(roughness=0.3)
+
+
+def run_of(model: Model, seed: int, around: Surroundings = SMOOTH) -> Run:
+    return rehearse(model, random_forces(seed, 90.0, -9.0, 11.0), around, seed)
+
+
+def with_typical(name: str) -> Model:
+    """Return the true robot with three typical sizes of an effect."""
+    kind = library()[name]
+    return Model().with_effect(kind(**{s.name: s.default + 3.0 * s.scale for s in kind.specs()}))
+
+
+@cache
+def answer(name: str) -> Identification:
+    return identify([run_of(with_typical(name), 3)], DECLARED)
+
+
+@pytest.mark.parametrize('around', [SMOOTH, ROUGH], ids=['smooth', 'rough'])
+def test_robot_that_is_only_miscalibrated_lacks_nothing(around: Surroundings) -> None:
+    result = identify([run_of(Model(), 1, around)], DECLARED)
+    assert (result.verdict, result.effects, result.unexplained) == ('nothing_missing', (), None)
+
+
+@pytest.mark.parametrize('name', list(library()))
+def test_hidden_effect_is_named_alone(name: str) -> None:
+    result = answer(name)
+    assert [effect.name for effect in result.effects] == [name]
+    assert result.verdict == 'effects_found'
+
+
+@pytest.mark.parametrize('name', list(library()))
+def test_error_with_the_effect_falls_to_the_noise_floor(name: str) -> None:
+    errors = answer(name).errors
+    assert errors.with_effects.v_rmse < 1.05 * errors.noise_floor.v_rmse
+    assert errors.with_effects.omega_rmse < 1.05 * errors.noise_floor.omega_rmse
+
+
+def test_hidden_effect_is_named_on_a_rough_floor() -> None:
+    result = identify([run_of(with_typical('slope'), 4, ROUGH)], DECLARED)
+    assert [effect.name for effect in result.effects] == ['slope']
+
+
+def test_two_effects_hidden_in_one_run_are_both_named() -> None:
+    truth = with_typical('actuator_lag').with_effect(QuadraticDrag(4.0))
+    result = identify([run_of(truth, 5)], DECLARED)
+    assert {effect.name for effect in result.effects} == {'actuator_lag', 'quadratic_drag'}
+
+
+def test_effect_that_the_library_lacks_is_unexplained_and_its_variable_named() -> None:
+    others = [kind for name, kind in library().items() if name != 'slope']
+    result = identify([run_of(with_typical('slope'), 6)], DECLARED, kinds=others)
+    assert result.verdict == 'unexplained'
+    assert result.unexplained is not None
+    assert (result.unexplained.axis, result.unexplained.variable) == ('v', 'heading')
+
+
+def test_interval_is_narrow_and_near_the_truth() -> None:
+    estimate = answer('quadratic_drag').effects[0].parameters['coefficient']
+    assert estimate.low < estimate.value < estimate.high
+    assert estimate.value == pytest.approx(6.0, rel=0.02)
+    assert estimate.high - estimate.low < 0.1
+
+
+def test_effect_that_is_declared_is_not_missing() -> None:
+    declared = DECLARED.with_effect(QuadraticDrag(3.0))
+    result = identify([run_of(Model().with_effect(QuadraticDrag(3.0)), 7)], declared)
+    assert result.verdict == 'nothing_missing'
+    assert result.identified.effects == declared.effects
+
+
+def test_same_runs_give_the_same_answer() -> None:
+    again = identify([run_of(with_typical('slope'), 3)], DECLARED)
+    assert again.effects == answer('slope').effects
+
+
+def test_run_in_which_nothing_moves_is_refused() -> None:
+    time = np.arange(0.0, 20.0, 0.02)
+    still = Odometry(time, np.zeros((len(time), 2)), None)
+    with pytest.raises(DataError, match='never moves'):
+        identify([Run('parked', Commands(time, np.zeros((len(time), 2))), still)], DECLARED)
+
+
+def test_run_without_pose_is_identified_too() -> None:
+    run = run_of(with_typical('quadratic_drag'), 8)
+    bare = Run(run.name, run.commands, Odometry(run.odometry.time, run.odometry.twist))
+    assert [e.name for e in identify([bare], DECLARED).effects] == ['quadratic_drag']
