@@ -133,6 +133,21 @@ def test_equal_forces_tear_both_wheels_loose_together(robot, excess):
     assert not run.twist[:, 1].any()
 
 
+@given(
+    robot=robots(),
+    excess=st.sampled_from([2.0**-52, 2.0**-51, 1e-12, 0.5]),
+    share=numbers(-0.9, 0.9),
+)
+def test_wheel_that_can_rest_does_not_go_with_the_other(robot, excess, share):
+    """Even where rounding almost hides which of them broke away."""
+    net = (1.0 + excess) * STATIC - COULOMB
+    assume(abs(share * STATIC + coupling(robot) * net) < 0.99 * STATIC)
+    model = Model(robot, Friction('coulomb_stiction'))
+    run = push(model, share * STATIC, (1.0 + excess) * STATIC, 1.0)
+    assert not run.wheel_speed[:, 0].any()
+    assert (run.wheel_speed[1:, 1] > 0.0).all()
+
+
 @given(force=numbers(1e-7, 1e3))
 def test_without_friction_any_force_moves_the_robot(force):
     run = push(Model(friction=Friction(model='none')), force, force, 1.0)

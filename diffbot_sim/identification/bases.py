@@ -39,10 +39,6 @@ class Basis:
         """Number of functions."""
         return int(self.values[0].shape[1])
 
-    def same_as(self, other: 'Basis') -> bool:
-        """Tell whether both are the same functions, on whatever stretches."""
-        return (self.axis, self.variable) == (other.axis, other.variable)
-
     def push(self, stretch: int, index: int) -> Array:
         """Return one function as a push on the body, shape (k, 2)."""
         values = self.values[stretch]

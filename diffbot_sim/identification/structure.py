@@ -21,6 +21,8 @@ from diffbot_sim.records import Array
 LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_LEVEL = 1e-3, 1e-2, 0.05
 # By how much in BIC a free form must beat an effect before the effect's name is withdrawn.
 OUTDONE = 10.0
+# An effect that takes this share of its worth from a free form stands or falls with it.
+TAKEN_SHARE = 0.5
 # Largest fall of the loss that one held-out sample may stand for.
 MOST_OF_SAMPLE = 4.0
 WORDS = {
@@ -71,18 +73,25 @@ def find_structure(screen: Screen, held_out: Sequence[Stretch]) -> Structure | N
 
 
 def outdone(rest: Fit, final: Fit, kind: type[Effect]) -> Dependence | None:
-    """Return a free-form force that explains more than an effect does, if there is one.
+    """Return a free-form force of which an effect captures a part only, if there is one.
 
     rest: the fit that lacks the effect, final: the one that has it. An effect of the right kind
-    needs fewer parameters than any free form; one that is outdone only resembles what acts.
+    needs fewer parameters than any free form, and leaves nothing of it. One that only resembles
+    what acts is outdone, takes its worth from the free form, and leaves the rest of it. Structure
+    that is there with and without the effect says nothing against its name.
     """
     screen = Screen(rest)
     size = float(np.log(rest.whitened.size))
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
     named = max(worth, screen.score(kind).ratio) - len(kind.specs()) * size
     best = dependences(screen)[0]
-    free = best.fall - len(best.amounts) * size
-    return best if free > named + OUTDONE and best.p_block < BLOCK_LEVEL else None
+    cost = len(best.amounts) * size
+    if best.fall - cost < named + OUTDONE or best.p_block > BLOCK_LEVEL:
+        return None
+    basis = next(iter(bases(final, final.stretches, best.basis)))
+    left = _try(Screen(final), basis).fall
+    taken = best.fall - left
+    return best if left - cost > OUTDONE and taken > TAKEN_SHARE * worth else None
 
 
 def _try(screen: Screen, basis: Basis) -> Dependence:
@@ -115,7 +124,7 @@ def sensitivity(fit: Fit, stretches: Sequence[Stretch], basis: Basis) -> Array:
 def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) -> float:
     """Return the chance of the fall of squared held-out errors, to first order."""
     begun = restarted(fit.model, held_out, MAX_STEP)
-    twin = next(b for b in bases(fit, begun, dependence.basis) if b.same_as(dependence.basis))
+    twin = next(iter(bases(fit, begun, dependence.basis)))
     errors = whitened(begun, fit.model, fit.gains, fit.sigma)
     change = sensitivity(fit, begun, twin) @ dependence.amounts
     change = change + fit.jacobian_on(begun) @ dependence.adaptation

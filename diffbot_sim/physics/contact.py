@@ -33,10 +33,12 @@ class Reaction(NamedTuple):
 
 
 class Range(NamedTuple):
-    """What wheels, and yaw friction, allow a resting robot's f_R - f_L to be [N]."""
+    """What each contact, at rest, allows f_R - f_L to be [N]."""
 
-    wheels_low: float
-    wheels_high: float
+    right_low: float
+    right_high: float
+    left_low: float
+    left_high: float
     yaw_low: float
     yaw_high: float
 
@@ -108,8 +110,8 @@ def slack(
     now = instant_at(laws, params, states, at, inputs, modes)
     if modes[RIGHT] == 0 and modes[LEFT] == 0:
         rest = _rest_range(laws, params, states, at, inputs, now)
-        apart = min(rest.wheels_high - rest.yaw_low, rest.yaw_high - rest.wheels_low)
-        return min(apart, rest.wheels_high - rest.wheels_low)
+        low, high = _wheels(rest)
+        return min(high - rest.yaw_low, rest.yaw_high - low, high - low)
     reaction = sliding_reaction(at, now, modes)
     if modes[RIGHT] == 0:
         pushed = evaluate(
@@ -179,11 +181,19 @@ def _rest_range(
     backward = evaluate(laws, params, states, at, inputs, -1.0, -1.0)
     force = now.force
     return Range(
-        max(-2.0 * backward.static_right - force, force - 2.0 * forward.static_left),
-        min(2.0 * forward.static_right - force, force + 2.0 * backward.static_left),
+        -2.0 * backward.static_right - force,
+        2.0 * forward.static_right - force,
+        force - 2.0 * forward.static_left,
+        force + 2.0 * backward.static_left,
         (now.torque - now.dry_torque) / now.b,
         (now.torque + now.dry_torque) / now.b,
     )
+
+
+@compiled
+def _wheels(rest: Range) -> tuple[float, float]:
+    """Return the ends of what both wheels allow; low exceeds high where nothing suits both."""
+    return max(rest.right_low, rest.left_low), min(rest.right_high, rest.left_high)
 
 
 @compiled
@@ -195,10 +205,10 @@ def _reaction_at_rest(
     Three dry contacts hold two motions, so the split is a choice wherever yaw friction exists.
     """
     rest = _rest_range(laws, params, states, at, inputs, now)
-    wheels = rest.wheels_high - rest.wheels_low
-    yaw = rest.yaw_high - rest.yaw_low
+    wheels_low, wheels_high = _wheels(rest)
+    wheels, yaw = wheels_high - wheels_low, rest.yaw_high - rest.yaw_low
     share = wheels / (wheels + yaw) if yaw > 0.0 and wheels > 0.0 else 1.0
-    low, high = max(rest.wheels_low, rest.yaw_low), min(rest.wheels_high, rest.yaw_high)
+    low, high = max(wheels_low, rest.yaw_low), min(wheels_high, rest.yaw_high)
     difference = min(max(share * now.torque / now.b, low), high)
     right = 0.5 * (now.force + difference)
     left = 0.5 * (now.force - difference)
@@ -216,7 +226,7 @@ def _break_rest(
     that cannot rest slides, and any other contact stays stuck where it can.
     """
     now = instant_at(laws, params, states, at, inputs, modes)
-    torn_right, torn_left = _cannot_rest(laws, params, states, at, inputs, now)
+    torn_right, torn_left = _torn(_rest_range(laws, params, states, at, inputs, now))
     trial = np.empty(3, np.int64)
     for torn_may_stick, stuck in ((False, 1), (False, 0), (True, 1)):
         for right in (1, -1, 0):
@@ -234,20 +244,17 @@ def _break_rest(
 
 
 @compiled
-def _cannot_rest(
-    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, now: Instant
-) -> tuple[bool, bool]:
-    """Tell which wheels exceed their limit at rest, whatever yaw friction takes."""
-    forward = evaluate(laws, params, states, at, inputs, 1.0, 1.0)
-    backward = evaluate(laws, params, states, at, inputs, -1.0, -1.0)
-    low = (now.torque - now.dry_torque) / now.b
-    high = (now.torque + now.dry_torque) / now.b
-    return (
-        now.force + low > 2.0 * forward.static_right
-        or now.force + high < -2.0 * backward.static_right,
-        now.force - high > 2.0 * forward.static_left
-        or now.force - low < -2.0 * backward.static_left,
-    )
+def _torn(rest: Range) -> tuple[bool, bool]:
+    """Tell which wheels exceed their limit at rest, whatever yaw friction takes.
+
+    Both, where each could hold but not the two together.
+    """
+    right = rest.right_high < rest.yaw_low or rest.yaw_high < rest.right_low
+    left = rest.left_high < rest.yaw_low or rest.yaw_high < rest.left_low
+    if right or left:
+        return right, left
+    low, high = _wheels(rest)
+    return high < low, high < low
 
 
 @compiled
