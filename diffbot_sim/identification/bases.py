@@ -41,9 +41,12 @@ class Basis:
 
     def push(self, stretch: int, index: int) -> Array:
         """Return one function as a push on the body, shape (k, 2)."""
-        values = self.values[stretch]
-        push = np.zeros((len(values), 2))
-        push[:, AXES.index(self.axis)] = self.unit * values[:, index]
+        return self.total(np.eye(self.size)[index], stretch)
+
+    def total(self, amounts: Array, stretch: int) -> Array:
+        """Return all functions together, in these amounts, as a push, shape (k, 2)."""
+        push = np.zeros((len(self.values[stretch]), 2))
+        push[:, AXES.index(self.axis)] = self.unit * self.values[stretch] @ amounts
         return push
 
     def strength(self, amounts: Array) -> float:

@@ -1,14 +1,14 @@
 """Structure that no effect accounts for: a force that depends on something, whatever its law."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.bases import Basis, bases
 from diffbot_sim.identification.evidence import block_gain, sandwich, wald_p
-from diffbot_sim.identification.fitting import Fit, huber, whitened
+from diffbot_sim.identification.fitting import GAIN_LIMITS, Fit, huber, whitened
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.screening import Screen
@@ -23,6 +23,8 @@ LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_LEVEL = 1e-3, 1e-2, 0.05
 OUTDONE = 10.0
 # An effect that takes this share of its worth from a free form stands or falls with it.
 TAKEN_SHARE = 0.5
+# How many of the dependences are put to the test, and the shares of them that are tried.
+FOLLOWED, SHARES = 4, (1.0, 0.5, 0.25, 0.1)
 # Largest fall of the loss that one held-out sample may stand for.
 MOST_OF_SAMPLE = 4.0
 WORDS = {
@@ -40,8 +42,9 @@ WORDS = {
 class Dependence:
     """How much a free-form force along one axis, depending on one variable, explains.
 
-    fall: of the deviance; amounts: coefficients of the basis in its units; spread: their
-    covariance; p_value and p_block as for effects.
+    fall: of the deviance, to first order until it is realised; amounts: coefficients of the basis
+    in its units; adaptation: how the free parameters shift with them; spread: covariance of the
+    amounts; p_block: as for effects.
     """
 
     basis: Basis
@@ -49,8 +52,12 @@ class Dependence:
     amounts: Array
     adaptation: Array
     spread: Array
-    p_value: float
     p_block: float
+
+    @property
+    def p_value(self) -> float:
+        """The chance of such a fall."""
+        return float(stats.chi2.sf(self.fall, len(self.amounts)))
 
 
 def dependences(screen: Screen) -> list[Dependence]:
@@ -63,7 +70,8 @@ def dependences(screen: Screen) -> list[Dependence]:
 def find_structure(screen: Screen, held_out: Sequence[Stretch]) -> Structure | None:
     """Return the strongest dependence that is beyond doubt, or None."""
     found = dependences(screen)
-    for dependence in found:
+    for first_order in found[:FOLLOWED]:
+        dependence = realised(screen.fit, first_order)
         beyond_chance = dependence.p_value * len(found) < LIKELIHOOD_LEVEL
         if not beyond_chance or dependence.p_block > BLOCK_LEVEL:
             continue
@@ -84,12 +92,12 @@ def outdone(rest: Fit, final: Fit, kind: type[Effect]) -> Dependence | None:
     size = float(np.log(rest.whitened.size))
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
     named = max(worth, screen.score(kind).ratio) - len(kind.specs()) * size
-    best = dependences(screen)[0]
+    best = realised(rest, dependences(screen)[0])
     cost = len(best.amounts) * size
     if best.fall - cost < named + OUTDONE or best.p_block > BLOCK_LEVEL:
         return None
     basis = next(iter(bases(final, final.stretches, best.basis)))
-    left = _try(Screen(final), basis).fall
+    left = realised(final, _try(Screen(final), basis)).fall
     taken = best.fall - left
     return best if left - cost > OUTDONE and taken > TAKEN_SHARE * worth else None
 
@@ -105,7 +113,6 @@ def _try(screen: Screen, basis: Basis) -> Dependence:
         amounts,
         screen.adaptation(slopes, amounts),
         spread,
-        float(stats.chi2.sf(fall, len(amounts))),
         wald_p(amounts, spread),
     )
 
@@ -121,16 +128,46 @@ def sensitivity(fit: Fit, stretches: Sequence[Stretch], basis: Basis) -> Array:
     return np.stack(columns, axis=-1)
 
 
+def realised(fit: Fit, dependence: Dependence) -> Dependence:
+    """Return the share of a dependence that lowers the deviance most when it really acts.
+
+    First order promises too much where the free parameters would have to move far.
+    """
+    before = float(huber(fit.whitened).sum())
+    falls = {
+        share: before - float(huber(_acting(fit, dependence, fit.stretches, share)).sum())
+        for share in SHARES
+    }
+    best = max(falls, key=lambda share: falls[share])
+    return replace(
+        dependence,
+        fall=max(falls[best], 0.0),
+        amounts=best * dependence.amounts,
+        adaptation=best * dependence.adaptation,
+        spread=best**2 * dependence.spread,
+    )
+
+
+def _acting(
+    fit: Fit, dependence: Dependence, stretches: Sequence[Stretch], share: float = 1.0
+) -> Array:
+    """Return whitened errors when the force acts and the free parameters have adapted."""
+    adapted, size = share * dependence.adaptation, len(fit.u)
+    model = fit.space.model(np.clip(fit.u + adapted[:size], *fit.space.bounds()))
+    gains = np.clip(fit.gains + adapted[size:], *GAIN_LIMITS)
+    begun = restarted(model, stretches, MAX_STEP) if stretches is not fit.stretches else stretches
+    basis = next(iter(bases(fit, begun, dependence.basis)))
+    pushes = [basis.total(share * dependence.amounts, index) for index in range(len(begun))]
+    return whitened(begun, model, gains, fit.sigma, pushes)
+
+
 def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) -> float:
-    """Return the chance of the fall of squared held-out errors, to first order."""
+    """Return the chance of the fall of the held-out loss."""
     begun = restarted(fit.model, held_out, MAX_STEP)
-    twin = next(iter(bases(fit, begun, dependence.basis)))
-    errors = whitened(begun, fit.model, fit.gains, fit.sigma)
-    change = sensitivity(fit, begun, twin) @ dependence.amounts
-    change = change + fit.jacobian_on(begun) @ dependence.adaptation
-    # Where a wheel starts or stops a first-order change means nothing: no sample may say much.
-    gain = np.clip(huber(errors) - huber(errors + change), -MOST_OF_SAMPLE, MOST_OF_SAMPLE)
-    return block_gain(gain.sum(axis=1))[1]
+    before = huber(whitened(begun, fit.model, fit.gains, fit.sigma))
+    gain = before - huber(_acting(fit, dependence, held_out))
+    # Where a wheel starts or stops a small force decides much: no sample may say more than this.
+    return block_gain(np.clip(gain, -MOST_OF_SAMPLE, MOST_OF_SAMPLE).sum(axis=1))[1]
 
 
 def describe(dependence: Dependence) -> Structure:

@@ -11,6 +11,7 @@ from rcl_interfaces.msg import (
     ParameterDescriptor,
     SetParametersResult,
 )
+from rclpy.exceptions import ParameterNotDeclaredException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
@@ -93,6 +94,13 @@ def listed_effects(node: Node) -> set[str]:
     return {name.split('.')[1] for name in given(node) if name.startswith('effects.')}
 
 
+class UnknownParameterError(ParameterNotDeclaredException):
+    """Takes the place of rclpy's own, which forgets to say the name."""
+
+    def __init__(self, name: str, known: Iterable[str]) -> None:
+        Exception.__init__(self, f'{name}: unknown parameter. {suggestion(name, list(known))}')
+
+
 class Live(Generic[Result]):
     """Parameters that can change while a node runs.
 
@@ -109,7 +117,7 @@ class Live(Generic[Result]):
         apply: Callable[[Result], None],
         fixed: Iterable[str] = (),
     ) -> None:
-        self._known, self._make, self._apply = known, make, apply
+        self._node, self._known, self._make, self._apply = node, known, make, apply
         start = {name: value for name, value in given(node).items() if name in known}
         defaults = {name: spec.default for name, spec in known.items()}
         self._values = self._checked({**defaults, **start}, f'{node.get_name()}: ')
@@ -122,7 +130,13 @@ class Live(Generic[Result]):
         node.add_post_set_parameters_callback(self._after)
 
     def _before(self, changes: list[Parameter]) -> list[Parameter]:
-        """Turn `10` into `10.0` where a double is declared; rclpy alone would refuse it."""
+        """Turn `10` into `10.0` where a double is declared; rclpy alone would refuse it.
+
+        Raises what rclpy makes the answer where a parameter is unknown.
+        """
+        for item in changes:
+            if not self._node.has_parameter(item.name):
+                raise UnknownParameterError(item.name, self._known)
         return [
             Parameter(item.name, value=converted(self._known[item.name], item.value))
             if item.name in self._known

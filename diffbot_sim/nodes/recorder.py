@@ -15,7 +15,7 @@ from diffbot_sim.nodes.running import overrides, parse, parser, run
 from diffbot_sim.nodes.settings import RecorderSettings
 
 WRENCH = 'geometry_msgs/msg/WrenchStamped'
-# Types of our own topics, to listen before anyone speaks; the others are waited for.
+# Types of our own topics, to listen before anyone speaks; those of others are asked for.
 KNOWN = {
     **{f'{s}_wheel/{n}': WRENCH for s in ('left', 'right') for n in ('force', 'force_cmd')},
     **{f'{s}_wheel/friction': WRENCH for s in ('left', 'right')},
@@ -70,9 +70,7 @@ class Recorder(Node):
     def _source(self, topic: str) -> Source | None:
         publishers = self.get_publishers_info_by_topic(topic)
         if not publishers:
-            return self._sources.get(topic) or (
-                Source(KNOWN[topic], Offer()) if topic in KNOWN else None
-            )
+            return self._sources.get(topic) or self._expected(topic)
         # The weakest offer: a listener that asks for more hears nothing from that publisher.
         reliable = all(p.qos_profile.reliability == ReliabilityPolicy.RELIABLE for p in publishers)
         kept = all(
@@ -82,6 +80,12 @@ class Recorder(Node):
             'reliable' if reliable else 'best_effort', 'transient_local' if kept else 'volatile'
         )
         return Source(publishers[0].topic_type, offer)
+
+    def _expected(self, topic: str) -> Source | None:
+        """Tell from who else listens what will come, so as not to miss the first message."""
+        kinds = [KNOWN[topic]] if topic in KNOWN else []
+        kinds += [other.topic_type for other in self.get_subscriptions_info_by_topic(topic)]
+        return Source(kinds[0], Offer()) if kinds else None
 
     def _listen(self, topic: str, source: Source) -> Any:
         kind = conversions.message_type(source.kind) if is_standard(source.kind) else None

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import rclpy
+from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import LoggingSeverity, set_logger_level
@@ -58,6 +59,8 @@ def run(
         work(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    except ParameterException as error:  # of the parameters that rclpy itself declares
+        raise ConfigError(f'ROS parameters: {error}') from error
     except rclpy_implementation.RCLError:
         if rclpy.ok():  # else a signal ended the context while a message was on its way
             raise

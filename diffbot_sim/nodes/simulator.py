@@ -112,6 +112,7 @@ class Simulator(Node):
                 f'no {side}_wheel/force_cmd for {timeout:g} s: its force falls to zero',
                 throttle_duration_sec=QUIET,
             )
+            self._commands[side] = Held()  # said once, not for ever
         return command.at(stamp, timeout)
 
     def _on_command(self, side: str, message: WrenchStamped) -> None:
