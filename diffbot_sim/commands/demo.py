@@ -137,7 +137,8 @@ def _conclude(out: Path, hidden: Effect) -> None:
         low, high = estimate['ci95'] if estimate else (float('nan'), float('nan'))
         value = f'{estimate["value"]:.4g} [{low:.4g}, {high:.4g}]' if estimate else 'not found'
         name = f'{hidden.name}.{spec.name}'
-        print(f'   {name}: hidden {getattr(hidden, spec.name):.4g}, found {value} {spec.unit}')
+        unit = spec.unit.removeprefix('-')
+        print(f'   {name}: hidden {getattr(hidden, spec.name):.4g}, found {value} {unit}')
     for name in found.keys() - {hidden.name}:
         print(f'   {name}: found, but was not hidden')
 
@@ -145,10 +146,10 @@ def _conclude(out: Path, hidden: Effect) -> None:
 def _drive_like_hidden(out: Path, declared: Model, hidden: Model) -> None:
     """Tell whether the simulator with the identified model moves like the hidden robot."""
     run = read_run(out / 'again').run
-    print('   Given the forces of the second drive, the simulator with the identified model and')
-    for name, model in (('the hidden robot', hidden), ('the declared model', declared)):
+    print('   The second drive, and what its forces predict (rms difference):')
+    for name, model in (('of the hidden robot', hidden), ('of the declared model', declared)):
         twist = simulate(model, run.commands, run.odometry.time).twist
         v, omega = 1e3 * np.sqrt(np.mean((run.odometry.twist - twist) ** 2, axis=0))
-        print(f'   {name} differ by {v:.2f} mm/s and {omega:.2f} mrad/s rms')
+        print(f'   {name}: {v:.2f} mm/s and {omega:.2f} mrad/s')
     v, omega = (1e3 * NOISE[name] for name in ('linear', 'angular'))
     print(f'   (odometry noise alone: {v:.2f} mm/s and {omega:.2f} mrad/s)')

@@ -24,7 +24,8 @@ def verdict(result: Identification) -> str:
         return f'Nothing missing: {_sufficient(result.errors)}.'
     found = _listed([_named(effect) for effect in result.effects])
     if result.verdict == EFFECTS_FOUND:
-        return f'Found: {found}; {_fall(result.errors)}.'
+        besides = f'; left unexplained: {_left(result)}' if result.unexplained else ''
+        return f'Found: {found}; {_fall(result.errors)}{besides}.'
     besides = f'; found besides: {found}' if result.effects else ''
     return f'Unexplained: {_left(result)}{besides}; {_fall(result.errors)}.'
 
@@ -91,8 +92,9 @@ def split(errors: Errors) -> str:
 def assumptions(result: Identification) -> list[str]:
     """List what the answer takes for granted."""
     return [
-        f'Errors are those of free-running simulation {split(result.errors)}: started from the '
-        'measured state, driven by the recorded forces alone, never corrected on the way.',
+        f'Errors are those of free-running simulation {split(result.errors)}: driven by the '
+        'recorded forces alone, never corrected on the way. Pose and rest are as measured at the '
+        'start; a robot in motion begins with the speeds that fit the first second best.',
         'The noise floor is the error that a perfect model would still have: '
         'measurement noise, taken as white.',
         'Force disturbances are allowed to be correlated in time (an uneven floor), '
