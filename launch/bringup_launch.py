@@ -3,6 +3,7 @@
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
 from launch import LaunchContext, LaunchDescription
@@ -10,6 +11,8 @@ from launch import LaunchContext, LaunchDescription
 PACKAGE = 'diffbot_sim'
 PARAMS = PathJoinSubstitution([FindPackageShare(PACKAGE), 'config', 'diffbot.yaml'])
 TRUE_OR_FALSE = ['true', 'false']
+# Arguments are texts; ROS refuses a text where it wants a number or a truth.
+TYPES = {'real_time_factor': float, 'enable_stamped_cmd_vel': bool, 'output': str}
 
 
 def generate_launch_description() -> LaunchDescription:
@@ -46,9 +49,13 @@ def _nodes(context: LaunchContext) -> list[Node]:
         return LaunchConfiguration(name).perform(context)
 
     def node(name: str, clock: str, *arguments: str) -> Node:
-        values = {key: argument(key) for key in arguments if argument(key)}
+        values = {
+            key: ParameterValue(LaunchConfiguration(key), value_type=TYPES[key])
+            for key in arguments
+            if argument(key)
+        }
         if argument('use_sim_time') == 'true':
-            values[clock] = 'true'
+            values[clock] = True
         return Node(
             package=PACKAGE,
             executable=name,
