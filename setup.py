@@ -5,7 +5,8 @@ from glob import glob
 from setuptools import find_packages, setup
 
 NAME = 'diffbot_sim'
-COMMANDS = ['simulator', 'pi_controller', 'driver', 'recorder', 'replay', 'simulate', 'identify']
+COMMANDS = ['simulator', 'pi_controller', 'driver', 'recorder', 'replay']
+COMMANDS += ['simulate', 'identify', 'demo']
 
 setup(
     name=NAME,
