@@ -182,6 +182,7 @@ def test_friction_and_effects_change_while_the_robot_drives(bare):
         ('robot.mass', -1.0, 'out of range'),
         ('robot.mass', nan, 'out of range'),
         ('publish_rate', 50.0, 'read-only'),
+        ('effects.slope.grade', 0.1, "Did you mean 'effects.slope.grade_"),
     ],
 )
 def test_a_wrong_parameter_is_refused_with_a_reason(bare, name, value, reason):
@@ -199,6 +200,7 @@ def test_a_wrong_parameter_is_refused_with_a_reason(bare, name, value, reason):
         ('publish_rat:=1.0', "Did you mean 'publish_rate'?"),
         ('robot.mass:=-1.0', 'takes 0.001 to 100000 kg'),
         ('friction.mu_coulomb:=1.0', 'exceeds friction.mu_static'),
+        ('use_sim_time:=1', "expecting type 'BOOL'"),
     ],
 )
 def test_a_wrong_parameter_at_the_start_is_told_in_one_line(argument, message):
