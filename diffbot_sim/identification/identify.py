@@ -53,6 +53,9 @@ def identify(
     fitted = restarted(recalibrated.model, fitted, MAX_STEP)
     progress('fitting the noise model')
     base = fit_prediction(recalibrated.space, fitted, recalibrated.u, FIRST_GAINS)
+    # One-step errors have fewer local minima: where they lead is one more start.
+    again = fit_simulation(base.space, fitted, base.u)
+    recalibrated = min(recalibrated, again, key=simulation_error)
     selection = select(base, tried, held_out, progress)
     progress('looking for structure that is left')
     selection, unexplained = _doubt(selection, held_out)
