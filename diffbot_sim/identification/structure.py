@@ -86,18 +86,19 @@ def outdone(rest: Fit, final: Fit, kind: type[Effect]) -> Dependence | None:
     rest: the fit that lacks the effect, final: the one that has it. An effect of the right kind
     needs fewer parameters than any free form, and leaves nothing of it. One that only resembles
     what acts is outdone, takes its worth from the free form, and leaves the rest of it. Structure
-    that is there with and without the effect says nothing against its name.
+    that is there with and without the effect says nothing against its name. All to first order,
+    so that both sides of the comparison err alike.
     """
     screen = Screen(rest)
     size = float(np.log(rest.whitened.size))
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
     named = max(worth, screen.score(kind).ratio) - len(kind.specs()) * size
-    best = realised(rest, dependences(screen)[0])
+    best = dependences(screen)[0]
     cost = len(best.amounts) * size
     if best.fall - cost < named + OUTDONE or best.p_block > BLOCK_LEVEL:
         return None
     basis = next(iter(bases(final, final.stretches, best.basis)))
-    left = realised(final, _try(Screen(final), basis)).fall
+    left = _try(Screen(final), basis).fall
     taken = best.fall - left
     return best if left - cost > OUTDONE and taken > TAKEN_SHARE * worth else None
 
