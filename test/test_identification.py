@@ -21,7 +21,7 @@ SMOOTH, ROUGH = Surroundings(), Surroundings(roughness=0.3)
 
 
 def run_of(model: Model, seed: int, around: Surroundings = SMOOTH) -> Run:
-    return rehearse(model, random_forces(seed, 90.0, -9.0, 11.0), around, seed)
+    return rehearse(model, random_forces(seed, 60.0, -9.0, 11.0), around, seed)
 
 
 def with_typical(name: str) -> Model:
