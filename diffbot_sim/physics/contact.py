@@ -22,6 +22,11 @@ Modes = NDArray[np.int64]
 RIGHT, LEFT, YAW = range(3)
 # The mode of turning where there is no dry yaw friction: neither sticks nor has a limit.
 FREE = 2
+# A contact holds up to its limit and this share of the forces that balance in it, so that rounding
+# never tears it loose: whatever breaks away is then sure to accelerate.
+ROUNDING = 1e-14
+# The Stribeck curve is continued past speed 0, where stages of a step may look, up to this power.
+STEEPEST = 1.0
 
 
 class Reaction(NamedTuple):
@@ -56,13 +61,11 @@ def sliding_reaction(at: Motion, now: Instant, modes: Modes) -> Reaction:
     """Return the friction forces while at least one wheel rolls: (13), and what sticking takes."""
     right, left, yaw = 0.0, 0.0, modes[YAW] * now.dry_torque
     if modes[RIGHT] != 0:
-        along = modes[RIGHT] * at.speed_right
-        size = now.coulomb_right + now.excess_right * exp(-now.stribeck_right * along)
-        right = modes[RIGHT] * (size + now.viscous_right * along)
+        drop = now.excess_right, now.stribeck_right
+        right = _sliding(modes[RIGHT], at.speed_right, now.coulomb_right, drop, now.viscous_right)
     if modes[LEFT] != 0:
-        along = modes[LEFT] * at.speed_left
-        size = now.coulomb_left + now.excess_left * exp(-now.stribeck_left * along)
-        left = modes[LEFT] * (size + now.viscous_left * along)
+        drop = now.excess_left, now.stribeck_left
+        left = _sliding(modes[LEFT], at.speed_left, now.coulomb_left, drop, now.viscous_left)
     b, mass, inertia = now.b, now.mass, now.inertia
     mobility = 1.0 / mass + b * b / inertia
     if modes[RIGHT] == 0:
@@ -74,6 +77,17 @@ def sliding_reaction(at: Motion, now: Instant, modes: Modes) -> Reaction:
     elif modes[YAW] == 0:
         yaw = now.torque - b * (right - left)
     return Reaction(right, left, yaw)
+
+
+@compiled
+def _sliding(
+    mode: int, speed: float, coulomb: float, drop: tuple[float, float], viscous: float
+) -> float:
+    """Return (13) for a wheel that rolls as its mode says; drop: Stribeck excess and rate."""
+    excess, rate = drop
+    along = mode * speed
+    size = coulomb + excess * exp(min(-rate * along, STEEPEST))
+    return mode * (size + viscous * along)
 
 
 @compiled
@@ -108,22 +122,21 @@ def slack(
     if modes[RIGHT] != 0 and modes[LEFT] != 0 and modes[YAW] != 0:
         return inf
     now = instant_at(laws, params, states, at, inputs, modes)
+    allowance = _allowance(now)
     if modes[RIGHT] == 0 and modes[LEFT] == 0:
         rest = _rest_range(laws, params, states, at, inputs, now)
         low, high = _wheels(rest)
-        return min(high - rest.yaw_low, rest.yaw_high - low, high - low)
+        return allowance + min(high - rest.yaw_low, rest.yaw_high - low, high - low)
     reaction = sliding_reaction(at, now, modes)
+    right, left = float(modes[RIGHT]), float(modes[LEFT])
+    allowance += ROUNDING * (abs(reaction.right) + abs(reaction.left))
     if modes[RIGHT] == 0:
-        pushed = evaluate(
-            laws, params, states, at, inputs, _direction(reaction.right), float(modes[LEFT])
-        )
-        return pushed.static_right - abs(reaction.right)
+        pushed = evaluate(laws, params, states, at, inputs, _direction(reaction.right), left)
+        return pushed.static_right - abs(reaction.right) + allowance
     if modes[LEFT] == 0:
-        pushed = evaluate(
-            laws, params, states, at, inputs, float(modes[RIGHT]), _direction(reaction.left)
-        )
-        return pushed.static_left - abs(reaction.left)
-    return now.dry_torque - abs(reaction.yaw)
+        pushed = evaluate(laws, params, states, at, inputs, right, _direction(reaction.left))
+        return pushed.static_left - abs(reaction.left) + allowance
+    return now.dry_torque - abs(reaction.yaw) + now.b * allowance
 
 
 @compiled
@@ -169,6 +182,12 @@ def modes_of(z: Array, dry_torque: float, modes: Modes) -> None:
 
 
 @compiled
+def _allowance(now: Instant) -> float:
+    """Return what rounding may add to a reaction [N]."""
+    return ROUNDING * (abs(now.force) + (abs(now.torque) + now.dry_torque) / now.b)
+
+
+@compiled
 def _direction(towards: float) -> float:
     return 1.0 if towards >= 0.0 else -1.0
 
@@ -210,6 +229,8 @@ def _reaction_at_rest(
     share = wheels / (wheels + yaw) if yaw > 0.0 and wheels > 0.0 else 1.0
     low, high = max(wheels_low, rest.yaw_low), min(wheels_high, rest.yaw_high)
     difference = min(max(share * now.torque / now.b, low), high)
+    if high < low:  # by less than the allowance
+        difference = 0.5 * (low + high)
     right = 0.5 * (now.force + difference)
     left = 0.5 * (now.force - difference)
     return Reaction(right, left, now.torque - now.b * difference)
@@ -226,7 +247,9 @@ def _break_rest(
     that cannot rest slides, and any other contact stays stuck where it can.
     """
     now = instant_at(laws, params, states, at, inputs, modes)
-    torn_right, torn_left = _torn(_rest_range(laws, params, states, at, inputs, now))
+    torn_right, torn_left = _torn(
+        _rest_range(laws, params, states, at, inputs, now), _allowance(now)
+    )
     trial = np.empty(3, np.int64)
     for torn_may_stick, stuck in ((False, 1), (False, 0), (True, 1)):
         for right in (1, -1, 0):
@@ -244,17 +267,15 @@ def _break_rest(
 
 
 @compiled
-def _torn(rest: Range) -> tuple[bool, bool]:
+def _torn(rest: Range, allowance: float) -> tuple[bool, bool]:
     """Tell which wheels exceed their limit at rest, whatever yaw friction takes.
 
     Both, where each could hold but not the two together.
     """
-    right = rest.right_high < rest.yaw_low or rest.yaw_high < rest.right_low
-    left = rest.left_high < rest.yaw_low or rest.yaw_high < rest.left_low
-    if right or left:
-        return right, left
-    low, high = _wheels(rest)
-    return high < low, high < low
+    right = allowance + min(rest.right_high - rest.yaw_low, rest.yaw_high - rest.right_low) < 0.0
+    left = allowance + min(rest.left_high - rest.yaw_low, rest.yaw_high - rest.left_low) < 0.0
+    apart = not (right or left)
+    return right or apart, left or apart
 
 
 @compiled

@@ -22,8 +22,6 @@ from diffbot_sim.records import Array
 
 # An event is placed to this fraction of the step.
 LOCATION = 1e-11
-# Where rounding hides whether a contact yet breaks away, look again after this fraction.
-TIE = 1e-6
 # Events in one step beyond this many are grazing contacts; they are left to stick.
 MOST_EVENTS = 64
 # A step is halved, at most so often, while its stages disagree: there the method is unstable.
@@ -48,18 +46,19 @@ def advance(
     """Move z, modes and effect states on by one step under constant inputs, events included."""
     done, events = 0.0, 0
     while done < duration:
-        watched, left = events < MOST_EVENTS, duration - done
-        held = watched and update_contacts(laws, params, states, z, modes, inputs, time + done)
-        ahead = left if held or not watched else min(left, TIE * duration)
+        held = events < MOST_EVENTS and update_contacts(
+            laws, params, states, z, modes, inputs, time + done
+        )
+        left = duration - done
         taken, event = _step_to_event(
-            laws, params, states, z, modes, inputs, time + done, ahead, work, held
+            laws, params, states, z, modes, inputs, time + done, left, work, held
         )
         at = motion_at(params, z, time + done, taken)
         settle(params, states, at, inputs)
         z[:] = work[0]
         if event:
             contact.arrive(z, modes)
-        events += event or ahead < left
+            events += 1
         done = duration if taken == left else done + taken
 
 
