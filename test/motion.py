@@ -51,7 +51,7 @@ def traction_work(robot: Robot, run: Trajectory) -> Any:
 def numbers(low: float, high: float) -> st.SearchStrategy[float]:
     """Draw from an interval, and often its ends, 0 and what is almost 0."""
     hard = [x for x in (low, high, 0.0, 1e-7, -1e-7) if low <= x <= high]
-    return st.sampled_from(hard) | st.floats(low, high)
+    return st.sampled_from(hard) | st.floats(low, high, allow_subnormal=False)
 
 
 @st.composite

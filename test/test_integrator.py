@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from motion import (
     commands,
@@ -48,11 +48,12 @@ def viscous_only(mu: float) -> Friction:
 
 
 @given(robot=robots(), right=forces(), left=forces())
+@example(robot=Robot(1.0, 0.054931640625, 0.46875), right=0.0, left=1e-7)  # B = 0
 def test_without_friction_the_robot_obeys_equations_7_and_11(robot, right, left):
     run = push(Model(robot, Friction('none')), right, left, 2.0)
     v = (right + left) / robot.mass * run.time
     omega = (right - left) * robot.half_separation / robot.inertia * run.time
-    tolerance = 1e-12 * (abs(right) + abs(left)) / robot.mass
+    tolerance = 1e-12 * (abs(right) + abs(left)) / robot.mass + 1e-300
     np.testing.assert_allclose(run.twist[:, 0], v, rtol=1e-12, atol=tolerance)
     tolerance /= robot.half_separation
     np.testing.assert_allclose(run.twist[:, 1], omega, rtol=1e-12, atol=20 * tolerance)
@@ -229,4 +230,4 @@ def test_friction_never_adds_energy(robot, friction, rows, start):
     energy, work = kinetic_energy(robot, run), traction_work(robot, run)
     taken = np.diff(work) - np.diff(energy)
     turnover = energy.max() + np.abs(np.diff(work)).sum()
-    assert taken.min() >= -1e-6 * turnover
+    assert taken.min() >= -1e-6 * turnover - 1e-20
