@@ -3,12 +3,14 @@
 from contextlib import ExitStack
 from itertools import pairwise
 from math import nan
+from signal import SIGINT, SIGTERM
+from time import monotonic, sleep
 
 import pytest
 from geometry_msgs.msg import Twist, TwistStamped, WrenchStamped
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
-from ros_robot import Robot, refusal, running
+from ros_robot import PATIENCE, Robot, refusal, running
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Empty, SetBool
@@ -210,6 +212,19 @@ def test_a_wrong_parameter_at_the_start_is_told_in_one_line(argument, message):
 def test_a_parameter_file_that_is_missing_is_told_in_one_line():
     line = refusal('pi_controller', '--ros-args', '--params-file', '/nowhere.yaml')
     assert "'--params-file /nowhere.yaml'. Error: Error opening YAML file" in line
+
+
+@pytest.mark.parametrize('number', [SIGINT, SIGTERM])
+def test_a_node_that_hears_nothing_ends_at_once_when_told(number, tmp_path):
+    words = ('--ros-args', '-r', '__ns:=/idle')
+    with running(tmp_path / 'log', 'pi_controller', *words) as idle:
+        while 'ready' not in idle.said():
+            assert idle.process.poll() is None
+            sleep(0.05)
+        told = monotonic()
+        assert idle.stop(number) == 0
+    assert monotonic() - told < PATIENCE / 10
+    assert 'Traceback' not in idle.said()
 
 
 def test_simulation_time_starts_at_zero_and_is_published(plain):

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import rclpy
+from rclpy.clock import Clock, ClockType
 from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.impl.implementation_singleton import rclpy_implementation
@@ -16,6 +17,8 @@ from rclpy.parameter import Parameter
 from diffbot_sim.errors import ConfigError
 from diffbot_sim.nodes.parameters import table
 from diffbot_sim.parameters import Spec
+
+LOOK_UP = 0.2  # [s] that an idle node may sleep after a signal
 
 
 def parser(name: str, about: str, known: dict[str, Spec]) -> ArgumentParser:
@@ -53,11 +56,19 @@ def run(
     Raises DiffbotError where something known is wrong, after everything is closed.
     """
     node = None
+    # Ctrl-C ends the ROS context, as SIGTERM does, and that ends the work between two callbacks.
+    # KeyboardInterrupt would cut through compiled code and half-written messages.
+    interrupts: list[int] = []
+    signal.signal(signal.SIGINT, lambda number, frame: interrupts.append(number))
     try:
         _initialise(argv)
+        if interrupts:  # too early for ROS to hear it
+            raise ExternalShutdownException
         node = make()
+        # rclpy may wake an idle node for a signal before the context has ended: wake it again.
+        node.create_timer(LOOK_UP, lambda: None, clock=Clock(clock_type=ClockType.STEADY_TIME))
         work(node)
-    except (KeyboardInterrupt, ExternalShutdownException):
+    except ExternalShutdownException:
         pass
     except ParameterException as error:  # of the parameters that rclpy itself declares
         raise ConfigError(f'ROS parameters: {error}') from error
