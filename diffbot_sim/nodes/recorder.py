@@ -5,6 +5,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
@@ -53,7 +54,10 @@ class Recorder(Node):
         """Finish the bag, then end the node."""
         self._writer.close()
         if silent := [topic for topic in self._wanted if topic not in self._heard]:
-            self.get_logger().warning(f'nothing came on {", ".join(silent)}')
+            # Not the node's own logger: it would complain that /rosout is gone already.
+            get_logger(f'{self.get_logger().name}.end').warning(
+                f'nothing came on {", ".join(silent)}'
+            )
         super().destroy_node()
 
     def _look(self) -> None:
