@@ -1,12 +1,14 @@
 """Start the simulator and its inner loop, and with record:=true a recorder."""
 
-from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from pathlib import Path
+
+from launch.actions import DeclareLaunchArgument, OpaqueFunction, Shutdown
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
-from launch import LaunchContext, LaunchDescription
+from launch import Event, LaunchContext, LaunchDescription
 
 PACKAGE = 'diffbot_sim'
 PARAMS = PathJoinSubstitution([FindPackageShare(PACKAGE), 'config', 'diffbot.yaml'])
@@ -58,6 +60,7 @@ def _nodes(context: LaunchContext) -> list[Node]:
             values[clock] = True
         return Node(
             package=PACKAGE,
+            on_exit=_end,
             executable=name,
             namespace=argument('namespace'),
             # ROS cannot read a file without parameters, so none is made of an empty mapping.
@@ -65,6 +68,9 @@ def _nodes(context: LaunchContext) -> list[Node]:
             output='screen',
         )
 
+    # ROS would only warn, and simulate a robot that nobody asked for.
+    if not Path(argument('params')).is_file():
+        raise FileNotFoundError(f'params: {argument("params")}: there is no such file')
     nodes = [
         node('simulator', 'publish_clock', 'real_time_factor'),
         node('pi_controller', 'use_sim_time', 'enable_stamped_cmd_vel'),
@@ -72,3 +78,8 @@ def _nodes(context: LaunchContext) -> list[Node]:
     if argument('record') == 'true':
         nodes.append(node('recorder', 'use_sim_time', 'output'))
     return nodes
+
+
+def _end(_: Event, context: LaunchContext) -> Shutdown | None:
+    """Let no robot drive on without one of its parts."""
+    return None if context.is_shutdown else Shutdown(reason='a node has ended')
