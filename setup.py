@@ -6,7 +6,7 @@ from setuptools import find_packages, setup
 
 NAME = 'diffbot_sim'
 COMMANDS = ['simulator', 'pi_controller', 'driver', 'recorder', 'replay']
-COMMANDS += ['simulate', 'identify', 'demo']
+COMMANDS += ['simulate', 'identify', 'paper', 'demo']
 
 setup(
     name=NAME,
@@ -20,7 +20,11 @@ setup(
     python_requires='>=3.10',
     packages=find_packages(include=[NAME, f'{NAME}.*']),
     package_data={
-        NAME: ['py.typed', *(f'report/*.{kind}' for kind in ('html', 'css', 'j2', 'mplstyle'))],
+        NAME: [
+            'py.typed',
+            *(f'report/*.{kind}' for kind in ('html', 'css', 'j2')),
+            *(f'paper/*.{kind}' for kind in ('yaml', 'j2', 'mplstyle')),
+        ],
     },
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),

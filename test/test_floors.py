@@ -17,8 +17,8 @@ FUNCTION = ast.FunctionDef | ast.AsyncFunctionDef
 FLOORS = {
     1: {'records', 'parameters', 'errors'},
     2: {'physics'},
-    3: {'control', 'paper', 'bags', 'config'},
-    4: {'identification'},
+    3: {'control', 'bags', 'config'},
+    4: {'identification', 'paper'},
     5: {'report'},
     6: {'nodes', 'commands', '__main__', 'entry_points'},
 }

@@ -8,7 +8,12 @@ from typing import Any
 
 import yaml
 
-from diffbot_sim.config.mapping import model_from_mapping, model_to_mapping
+from diffbot_sim.config.mapping import (
+    Part,
+    model_from_mapping,
+    model_to_mapping,
+    part_from_mapping,
+)
 from diffbot_sim.errors import ConfigError
 from diffbot_sim.physics.model import Model
 
@@ -31,16 +36,15 @@ _Loader.add_implicit_resolver(
 
 def load_model(path: str | Path) -> Model:
     """Read a parameter file; raises ConfigError that tells every fault at once."""
-    merged: dict[str, Any] = {}
-    found = False
-    for section in _sections(_parsed(path)):
-        if not isinstance(section, Mapping):
-            raise ConfigError(f'{path}: {PARAMETERS} holds {section!r}, not keys and values.')
-        _merge(merged, section)
-        found = True
-    if not found:
-        raise ConfigError(f'{path}: no parameters for the simulator. {FORM}')
-    return model_from_mapping(merged, str(path))
+    return model_from_mapping(_merged(path), str(path))
+
+
+def load_section(path: str | Path, name: str, kind: type[Part]) -> Part:
+    """Read one section of a parameter file, such as `pi`, as the dataclass of its fields.
+
+    What is absent keeps its default. Raises ConfigError that tells every fault at once.
+    """
+    return part_from_mapping(_merged(path), name, kind, str(path))
 
 
 def save_model(model: Model, path: str | Path, comment: str = '') -> None:
@@ -58,6 +62,20 @@ def save_model(model: Model, path: str | Path, comment: str = '') -> None:
         replace(unfinished, target)
     except OSError as error:
         raise ConfigError(f'{path}: cannot be written: {error.strerror}.') from error
+
+
+def _merged(path: str | Path) -> dict[str, Any]:
+    """Lay all sections for the simulator over each other."""
+    merged: dict[str, Any] = {}
+    found = False
+    for section in _sections(_parsed(path)):
+        if not isinstance(section, Mapping):
+            raise ConfigError(f'{path}: {PARAMETERS} holds {section!r}, not keys and values.')
+        _merge(merged, section)
+        found = True
+    if not found:
+        raise ConfigError(f'{path}: no parameters for the simulator. {FORM}')
+    return merged
 
 
 def _parsed(path: str | Path) -> Mapping[Any, Any]:

@@ -14,7 +14,7 @@ from diffbot_sim.physics.robot import Robot
 
 SECTIONS = ['robot', 'friction', 'effects']
 
-Part = TypeVar('Part', bound=Robot | Friction | Effect)
+Part = TypeVar('Part')
 
 
 def model_to_mapping(model: Model) -> dict[str, Any]:
@@ -41,6 +41,15 @@ def model_from_mapping(mapping: Mapping[str, Any], where: str) -> Model:
     if faults:
         raise ConfigError(f'{where}: ' + '; '.join(faults))
     return Model(robot, friction, effects)
+
+
+def part_from_mapping(mapping: Mapping[str, Any], name: str, kind: type[Part], where: str) -> Part:
+    """Build one section's dataclass; raises ConfigError, which starts with `where`."""
+    faults: list[str] = []
+    part = _part(kind, mapping.get(name), name, faults)
+    if faults:
+        raise ConfigError(f'{where}: ' + '; '.join(faults))
+    return part
 
 
 def _plain(part: Robot | Friction | Effect) -> dict[str, Any]:

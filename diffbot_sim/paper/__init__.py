@@ -1,0 +1,1 @@
+"""The paper, reproduced and checked: its experiments, its claims, its errors."""

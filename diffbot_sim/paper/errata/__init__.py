@@ -1,0 +1,1 @@
+"""The errors of the paper, each with a demonstration, one file each."""
