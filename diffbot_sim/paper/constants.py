@@ -42,7 +42,7 @@ def load_constants(path: Path | None = None) -> Constants:
     if path is None:
         with as_file(CHOSEN) as chosen:
             return load_constants(chosen)
-    model = load_model(path)
+    model = load_model(path, '--constants')
     if model.effects:
         names = ', '.join(effect.name for effect in model.effects)
         raise ConfigError(f'{path}: effects ({names}): the paper has none. Leave them out.')
@@ -51,4 +51,4 @@ def load_constants(path: Path | None = None) -> Constants:
             f'{path}: friction.model: {model.friction.model!r}; the experiments choose the basic '
             "models themselves. Give 'generalized' and its four coefficients."
         )
-    return Constants(model.robot, model.friction, load_section(path, 'pi', Gains))
+    return Constants(model.robot, model.friction, load_section(path, 'pi', Gains, '--constants'))
