@@ -16,8 +16,8 @@ FUNCTION = ast.FunctionDef | ast.AsyncFunctionDef
 
 FLOORS = {
     1: {'records', 'parameters', 'errors'},
-    2: {'physics'},
-    3: {'control', 'bags', 'config'},
+    2: {'physics', 'drives'},
+    3: {'control', 'bags', 'tables', 'config'},
     4: {'identification', 'paper'},
     5: {'report'},
     6: {'nodes', 'commands', '__main__', 'entry_points'},
@@ -29,6 +29,7 @@ PLOTTING = {'report', 'paper'}
 HOME = {
     'rclpy': {'nodes'},
     'rosbags': {'bags'},
+    'pyarrow': {'tables'},
     'yaml': {'config'},
     'scipy': {room for room, floor in FLOOR.items() if floor >= FLOOR['identification']},
     'matplotlib': PLOTTING,

@@ -4,12 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from diffbot_sim.drives import GRID, RandomForces
 from diffbot_sim.physics import Model, simulate
 from diffbot_sim.records import Array, Commands, Odometry, Run
-
-RATE = 50.0  # of odometry and commands [Hz]
-SHORTEST, LONGEST = 0.5, 2.4  # how long forces are held [s]
-TOGETHER, STOPS = 0.4, 0.15  # shares of straight drives and of stops
 
 
 @dataclass(frozen=True)
@@ -28,18 +25,7 @@ class Surroundings:
 
 def random_forces(seed: int, duration: float, least: float, most: float) -> Commands:
     """Return wheel forces between least and most [N], held for random times, with stops."""
-    random = np.random.default_rng(seed)
-    time = np.arange(0.0, duration, 1.0 / RATE)
-    force = np.zeros((len(time), 2))
-    begin = 0
-    while begin < len(time):
-        end = begin + int(RATE * random.uniform(SHORTEST, LONGEST))
-        wheels, kind = random.uniform(least, most, 2), random.random()
-        if kind < TOGETHER:
-            wheels[1] = wheels[0]
-        force[begin:end] = 0.0 if kind > 1.0 - STOPS else wheels
-        begin = end
-    return Commands(time, force)
+    return RandomForces(duration, least, most).commands(seed)
 
 
 def rehearse(model: Model, commands: Commands, around: Surroundings, seed: int) -> Run:
@@ -53,7 +39,7 @@ def rehearse(model: Model, commands: Commands, around: Surroundings, seed: int) 
 
 def _remembering(random: np.random.Generator, time: Array, memory: float) -> Array:
     """Return a first-order random force of unit size for each wheel, shape (k, 2)."""
-    kept = np.exp(-np.diff(time, prepend=time[0] - 1.0 / RATE) / memory)
+    kept = np.exp(-np.diff(time, prepend=time[0] - 1.0 / GRID) / memory)
     force, shocks = np.zeros((len(time), 2)), random.normal(size=(len(time), 2))
     force[0] = shocks[0]
     for k in range(1, len(time)):
