@@ -40,6 +40,7 @@ setup(
         'numba',
         'numpy',
         'plotly',
+        'pyarrow',
         'PyYAML',
         'rich',
         'rosbags',
