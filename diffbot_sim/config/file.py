@@ -24,9 +24,7 @@ def load_model(path: str | Path, option: str = '--params') -> Model:
     return model_from_mapping(_merged(path, option), str(path))
 
 
-def load_section(
-    path: str | Path, name: str, kind: type[Part], option: str = '--params'
-) -> Part:
+def load_section(path: str | Path, name: str, kind: type[Part], option: str = '--params') -> Part:
     """Read one section of a parameter file, such as `pi`, as the dataclass of its fields.
 
     What is absent keeps its default. Raises ConfigError that tells every fault at once.
