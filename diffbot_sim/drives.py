@@ -127,6 +127,16 @@ class Drive:
         50.0, unit='Hz', low=0.1, high=1e3, meaning='rows of the table in a second'
     )
 
+    def commands(self, seed: int) -> Commands:
+        """Return the forces of a run, after a second without any, so that actuators are at rest.
+
+        Otherwise the first force would count as having acted for long.
+        """
+        drawn = self.forces.commands(seed)
+        return Commands(
+            np.concatenate([[-1.0], drawn.time]), np.concatenate([np.zeros((1, 2)), drawn.force])
+        )
+
     @property
     def times(self) -> Array:
         """The stamps of the rows [s]."""

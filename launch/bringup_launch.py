@@ -71,6 +71,9 @@ def _nodes(context: LaunchContext) -> list[Node]:
     # ROS would only warn, and simulate a robot that nobody asked for.
     if not Path(argument('params')).is_file():
         raise FileNotFoundError(f'params: {argument("params")}: there is no such file')
+    factor = argument('real_time_factor')
+    if factor and not _is_number(factor):
+        raise ValueError(f'real_time_factor: {factor!r} is no number; give one such as 2.0')
     nodes = [
         node('simulator', 'publish_clock', 'real_time_factor'),
         node('pi_controller', 'use_sim_time', 'enable_stamped_cmd_vel'),
@@ -78,6 +81,13 @@ def _nodes(context: LaunchContext) -> list[Node]:
     if argument('record') == 'true':
         nodes.append(node('recorder', 'use_sim_time', 'output'))
     return nodes
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return float(text) > 0.0
+    except ValueError:
+        return False
 
 
 def _end(_: Event, context: LaunchContext) -> Shutdown | None:

@@ -30,7 +30,7 @@ def write_training_data(arguments: Namespace) -> None:
         save_model(model, folder / 'model.yaml', 'The model that was driven.')
         save_drive(drive, folder / 'drive.yaml', 'How it was driven, in every run.')
         for file in _with_progress(seeds):
-            commands = drive.forces.commands(seeds[file])
+            commands = drive.commands(seeds[file])
             motion = simulate(model, commands, drive.times)
             write(folder / file, columns_of(commands, motion))
         write_manifest(folder, seed, seeds)

@@ -147,9 +147,10 @@ class Simulator(Node):
     def _apply(self, setup: Setup) -> None:
         """Change what changed, and leave the rest as it moves."""
         before, self._settings = self._settings, setup.settings
-        if setup.model != self._plant.model:
-            self._plant.model = setup.model
-        if setup.settings.real_time_factor != before.real_time_factor:
+        changed = setup.model != self._plant.model
+        if changed:
+            self._plant.model = setup.model  # compiles a set of effects that is new
+        if changed or setup.settings.real_time_factor != before.real_time_factor:
             self._start_ticking()
         if setup.settings.odometry_noise != before.odometry_noise:
             self._odometer = self._new_odometer()
