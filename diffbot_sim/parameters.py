@@ -11,7 +11,8 @@ class Spec:
     """What is known of one parameter.
 
     low and high bound the value, both allowed; choices lists the valid texts instead.
-    scale is a typical size of a departure from neutral: it starts and scales fits.
+    scale is a typical size of a departure from neutral: it starts and scales fits. A limit, whose
+    neutral value is endless, is fitted as its reciprocal and scale is a typical size of it.
     """
 
     name: str
@@ -22,6 +23,7 @@ class Spec:
     high: float = inf
     scale: float = 1.0
     choices: tuple[str, ...] = ()
+    reciprocal: bool = False
 
     @property
     def valid(self) -> str:
@@ -54,6 +56,7 @@ def parameter(
     high: float = inf,
     scale: float = 1.0,
     choices: tuple[str, ...] = (),
+    reciprocal: bool = False,
 ) -> Any:
     """Declare a dataclass field that is a parameter."""
     facts = {
@@ -63,6 +66,7 @@ def parameter(
         'high': high,
         'scale': scale,
         'choices': choices,
+        'reciprocal': reciprocal,
     }
     return field(default=default, metadata={'parameter': facts})
 

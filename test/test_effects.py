@@ -20,10 +20,10 @@ from motion import (
     traction_work,
 )
 
-from diffbot_sim.parameters import parameter
+from diffbot_sim.parameters import Spec, parameter
 from diffbot_sim.physics import Friction, Model, effects
 from diffbot_sim.physics.compiled import compiled
-from diffbot_sim.physics.effects import Effect, library
+from diffbot_sim.physics.effects import Effect, Excitation, library
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 from diffbot_sim.physics.effects.com_offset import ComOffset
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
@@ -37,14 +37,14 @@ each_effect = pytest.mark.parametrize('kind', KINDS, ids=lambda kind: kind.name)
 
 def within_reach(kind: type[Effect]) -> st.SearchStrategy[Effect]:
     """Draw parameters within their bounds, at most ten typical departures from neutral."""
-    ranges = {
-        spec.name: numbers(
-            max(spec.low, spec.default - 10.0 * spec.scale),
-            min(spec.high, spec.default + 10.0 * spec.scale),
-        )
-        for spec in kind.specs()
-    }
-    return st.builds(kind, **ranges)
+    return st.builds(kind, **{spec.name: reach_of(spec) for spec in kind.specs()})
+
+
+def reach_of(spec: Spec) -> st.SearchStrategy[float]:
+    if spec.reciprocal:
+        return st.floats(0.01 * spec.scale, 10.0 * spec.scale)
+    low, high = spec.default - 10.0 * spec.scale, spec.default + 10.0 * spec.scale
+    return numbers(max(spec.low, low), min(spec.high, high))
 
 
 @each_effect
@@ -72,9 +72,25 @@ def test_every_field_of_an_effect_is_a_bounded_parameter(kind):
 def test_fits_start_within_bounds_and_away_from_neutral(kind):
     assert kind.guesses
     for guess in kind.guesses:
-        assert any(guess)
-        for spec, departure in zip(kind.specs(), guess, strict=True):
-            assert spec.fault(spec.default + departure) is None
+        assert kind(*guess) != kind()
+        for spec, value in zip(kind.specs(), guess, strict=True):
+            assert spec.fault(value) is None
+
+
+@each_effect
+def test_starts_for_any_drive_lie_within_bounds(kind):
+    small, large = (5.0, 60.0, 2.0, 0.02), (300.0, 2e3, 45.0, 9.0, (3.0, 7.5))
+    for offered in (Excitation(*small), Excitation(*large)):
+        starts = kind.starts(offered)
+        assert starts
+        for start in starts:
+            faults = [s.fault(x) for s, x in zip(kind.specs(), start, strict=True)]
+            assert not any(faults)
+
+
+@each_effect
+def test_shape_is_made_of_parameters_and_leaves_some_out(kind):
+    assert set(kind.shape) < {spec.name for spec in kind.specs()}
 
 
 @each_effect
@@ -114,9 +130,7 @@ def test_dissipative_effect_never_adds_energy(kind, data, robot, rows, start):
 @given(guess=st.integers(0, 9), rows=drives(20.0))
 def test_stamps_change_the_motion_by_no_more_than_the_integration_error(kind, guess, rows):
     """Stamps cut steps; they do nothing else."""
-    departure = kind.guesses[guess % len(kind.guesses)]
-    values = {s.name: s.default + d for s, d in zip(kind.specs(), departure, strict=True)}
-    model = Model(effects=(kind(**values),))
+    model = Model(effects=(kind(*kind.guesses[guess % len(kind.guesses)]),))
     coarse = drive(model, *rows, until=2.5, every=0.25)
     fine = drive(model, *rows, until=2.5, every=0.25 / 64)
     np.testing.assert_allclose(fine.pose[::64], coarse.pose, rtol=1e-5, atol=1e-6)

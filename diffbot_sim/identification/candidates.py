@@ -5,12 +5,19 @@ from diffbot_sim.identification.fitting import Fit, fit_prediction, fit_with_noi
 from diffbot_sim.identification.screening import Score, Screen
 from diffbot_sim.physics.effects import Effect
 
+# Evaluations after which one of several starts is chosen.
+SHORT = 4
+
 
 def extend(screen: Screen, kind: type[Effect], score: Score) -> Fit:
     """Fit a structure with one effect more: first with the noise model held, then with all."""
     base = screen.fit
     space = Space(base.space.declared, (*base.space.kinds, kind))
-    near = fit_with_noise_held(space, base.stretches, score.start, base.gains)
+    starts = list(score.starts)
+    if len(starts) > 1:  # local minima: follow several for a while
+        tried = [fit_with_noise_held(space, base.stretches, s, base.gains, SHORT) for s in starts]
+        starts = [min(tried, key=lambda fit: fit.deviance(base.sigma)).u]
+    near = fit_with_noise_held(space, base.stretches, starts[0], base.gains)
     return fit_prediction(space, base.stretches, near.u, near.gains, evaluations=8, rounds=2)
 
 

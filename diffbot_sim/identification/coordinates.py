@@ -1,6 +1,6 @@
 """The numbers that a fit may turn, and the model that they stand for."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import exp, log
 from typing import Any
@@ -15,6 +15,8 @@ from diffbot_sim.records import Array
 # A parameter that the data leaves open stays near its declared value: one standard deviation of
 # this weak prior is a factor e, or one declared value, and weighs as much as one sample.
 PRIOR_DEVIATION = 1.0
+# What has no meaning while an effect is neutral has no prior to speak of.
+NO_PRIOR = 1e4
 # Widest factor between a declared and a fitted mass, inertia or Stribeck coefficient.
 WIDEST_FACTOR = 30.0
 
@@ -23,7 +25,7 @@ WIDEST_FACTOR = 30.0
 class Coordinate:
     """One number of a fit: dimensionless, of order one, `prior` where nothing is known.
 
-    value turns it into the parameter's own unit.
+    value turns it into the parameter's own unit; deviation: the standard deviation of the prior.
     """
 
     name: str
@@ -32,6 +34,7 @@ class Coordinate:
     low: float
     high: float
     value: Callable[[float], float]
+    deviation: float = PRIOR_DEVIATION
 
 
 @dataclass(frozen=True)
@@ -90,6 +93,10 @@ class Space:
         """Return the point at which all is as declared and every effect neutral."""
         return np.array([c.prior for c in self.coordinates])
 
+    def deviations(self) -> Array:
+        """Return how far from its prior each coordinate may well be."""
+        return np.array([c.deviation for c in self.coordinates])
+
     def bounds(self) -> tuple[Array, Array]:
         """Return lowest and highest values of every coordinate."""
         return (
@@ -105,11 +112,16 @@ def _of_effect(kind: type[Effect], spec: Spec) -> Coordinate:
     """Fit a parameter in units of a typical departure from neutral."""
 
     def value(u: float) -> float:
-        return u * spec.scale
+        return spec.scale / u if spec.reciprocal else u * spec.scale
 
-    name, scale = f'{kind.name}.{spec.name}', spec.scale
-    neutral, low, high = spec.default / scale, spec.low / scale, spec.high / scale
-    return Coordinate(name, spec.unit, neutral, low, high, value)
+    neutral, *ends = (_in_scale(spec, x) for x in (spec.default, spec.low, spec.high))
+    deviation = NO_PRIOR if spec.name in kind.shape else PRIOR_DEVIATION
+    name = f'{kind.name}.{spec.name}'
+    return Coordinate(name, spec.unit, neutral, min(ends), max(ends), value, deviation)
+
+
+def _in_scale(spec: Spec, value: float) -> float:
+    return spec.scale / value if spec.reciprocal else value / spec.scale
 
 
 def _positive(spec: Spec, declared: float) -> Coordinate:
@@ -133,7 +145,7 @@ def _linear(spec: Spec, declared: float) -> Coordinate:
     return Coordinate(spec.name, spec.unit, declared / scale, 0.0, high, value)
 
 
-def guesses(kind: type[Effect]) -> list[Array]:
-    """Return an effect's starting points as coordinates."""
-    scales = np.array([spec.scale for spec in kind.specs()])
-    return [np.asarray(guess) / scales for guess in kind.guesses]
+def point_of(kind: type[Effect], values: Sequence[float]) -> Array:
+    """Return an effect's coordinates for values of its parameters."""
+    pairs = zip(kind.specs(), values, strict=True)
+    return np.array([_in_scale(spec, value) for spec, value in pairs])

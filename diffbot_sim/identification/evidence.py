@@ -41,10 +41,18 @@ def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
     return Evidence(
         delta_bic=ratio - added * float(np.log(samples)),
         p_value=float(stats.chi2.sf(ratio, added)),
-        p_block=wald(large, range(len(small.u), len(large.u))),
+        p_block=wald(large, _amounts(small, large)),
         held_out_gain=gain,
         p_held_out=chance,
     )
+
+
+def _amounts(small: Fit, large: Fit) -> list[int]:
+    """Return where the larger fit has amounts that the smaller one lacks, shapes left out."""
+    known = {coordinate.name for coordinate in small.space.coordinates}
+    shapes = {f'{kind.name}.{name}' for kind in large.space.kinds for name in kind.shape}
+    names = [coordinate.name for coordinate in large.space.coordinates]
+    return [i for i, name in enumerate(names) if name not in known | shapes]
 
 
 def delta_bic(first: Fit, second: Fit) -> float:

@@ -5,6 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 from os import cpu_count
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -25,6 +26,13 @@ HUBER = 3.0
 DIFFERENCE = 1e-5
 Errors = Callable[[Array, Array], Array]
 _POOL = ThreadPoolExecutor(max_workers=cpu_count())
+
+
+class Prior(NamedTuple):
+    """Where coordinates are pulled to, and how weakly."""
+
+    centre: Array
+    deviation: Array
 
 
 @dataclass(frozen=True)
@@ -123,7 +131,8 @@ def fit_with_noise_held(
     def errors(at: Array, sigma: Array) -> Array:
         return whitened(stretches, space.model(at), gains, sigma)
 
-    point, sigma = _minimise(errors, start, space.prior(), space.bounds(), evaluations, rounds=2)
+    prior = Prior(space.prior(), space.deviations())
+    point, sigma = _minimise(errors, start, prior, space.bounds(), evaluations, rounds=2)
     return Fit(space, stretches, point, gains, sigma)
 
 
@@ -143,7 +152,10 @@ def fit_prediction(
 
     low, high = space.bounds()
     bounds = (np.concatenate([low, GAIN_LIMITS[0]]), np.concatenate([high, GAIN_LIMITS[1]]))
-    prior = np.concatenate([space.prior(), GAIN_PRIOR])
+    prior = Prior(
+        np.concatenate([space.prior(), GAIN_PRIOR]),
+        np.concatenate([space.deviations(), np.full(len(gains), PRIOR_DEVIATION)]),
+    )
     begin = np.concatenate([start, gains])
     point, sigma = _minimise(errors, begin, prior, bounds, evaluations, rounds)
     return Fit(space, stretches, point[:size], point[size:], sigma)
@@ -152,7 +164,7 @@ def fit_prediction(
 def _minimise(
     errors: Errors,
     start: Array,
-    prior: Array,
+    prior: Prior,
     bounds: tuple[Array, Array],
     evaluations: int,
     rounds: int,
@@ -175,7 +187,7 @@ def _minimise(
 def _least_squares(
     errors: Errors,
     start: Array,
-    prior: Array,
+    prior: Prior,
     bounds: tuple[Array, Array],
     sigma: Array,
     evaluations: int,
@@ -183,12 +195,12 @@ def _least_squares(
     """Minimise robust whitened errors, with a weak pull towards the prior."""
 
     def cost(at: Array) -> Array:
-        return np.concatenate([errors(at, sigma).ravel(), (at - prior) / PRIOR_DEVIATION])
+        return np.concatenate([errors(at, sigma).ravel(), (at - prior.centre) / prior.deviation])
 
     def jacobian(at: Array) -> Array:
         columns = _columns(lambda x: errors(x, sigma), at, errors(at, sigma))
         stacked = np.stack([column.ravel() for column in columns], axis=1)
-        return np.vstack([stacked, np.eye(len(at)) / PRIOR_DEVIATION])
+        return np.vstack([stacked, np.diag(1.0 / prior.deviation)])
 
     result = least_squares(
         cost,

@@ -17,6 +17,7 @@ from diffbot_sim.physics.compiled import compiled, entry
 from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
 from diffbot_sim.physics.contact import FREE, LEFT, RIGHT, YAW, Modes
 from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.simulation import (
     MATRIX,
     WORK_ROWS,
@@ -58,7 +59,7 @@ def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = N
     """
     count = len(stretch.time)
     out = np.zeros((count, 6))
-    commands = stretch.run.commands
+    commands = scheduled(model, stretch.run.commands)
     _predict(
         *compose(tuple(type(effect) for effect in model.effects)),
         model.pack(),

@@ -1,34 +1,41 @@
 """Cheap screening: how much of the residual each effect could explain, to first order."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy import stats
 
-from diffbot_sim.identification.coordinates import Space, guesses
+from diffbot_sim.identification.coordinates import Space, point_of
 from diffbot_sim.identification.fitting import Fit, whitened
-from diffbot_sim.physics.effects import Effect
+from diffbot_sim.identification.periodicity import wheel_orders
+from diffbot_sim.physics.effects import Effect, Excitation
 from diffbot_sim.records import Array
 
 # A small amount of an effect, in coordinates of order one.
 AMOUNT = 0.05
 # Only what could not plausibly be chance is worth a full fit.
 PROMISING = 0.02
+# How many options are compared by their actual error, and how many of them may be followed.
+COMPARED, FOLLOWED = 8, 3
 
 
 @dataclass(frozen=True)
 class Score:
     """First-order worth of an effect.
 
-    ratio: estimate of the likelihood ratio; p_value: its chance under no effect; start: the
-    point (u of the larger space) at which a full fit should begin; seen: whether the drive
-    shows the effect at all once the free parameters have adapted.
+    ratio: estimate of the likelihood ratio; p_value: its chance under no effect, counting the
+    shapes tried; starts: points (u of the larger space) at which full fits should begin, the best
+    first; seen: whether the drive shows the effect at all once the free parameters have adapted;
+    shapes: how many were tried.
     """
 
     ratio: float
     p_value: float
-    start: Array
+    starts: tuple[Array, ...]
     seen: bool
+    shapes: int
 
 
 class Screen:
@@ -69,29 +76,56 @@ class Screen:
         return fall, np.asarray(amount), flat
 
     def score(self, kind: type[Effect]) -> Score:
-        """Try small amounts of an effect, and its guesses as they stand."""
-        fit = self.fit
-        space = Space(fit.space.declared, (*fit.space.kinds, kind))
-        neutral = np.concatenate(
-            [fit.u, [c.prior for c in space.of_effects[-len(kind.specs()) :]]]
+        """Try small amounts of an effect, in each of its shapes, and its starts as they stand."""
+        space = Space(self.fit.space.declared, (*self.fit.space.kinds, kind))
+        starts = [point_of(kind, values) for values in kind.starts(self.drive)]
+        if kind.shape:
+            options = [self._amounts(space, kind, start) for start in starts]
+        else:
+            neutral = point_of(kind, [spec.default for spec in kind.specs()])
+            options = [self._amounts(space, kind, neutral)]
+            options += [self._as_it_stands(space, start) for start in starts]
+        ratio, shapes = max(option.fall for option in options), len(starts) if kind.shape else 1
+        return Score(
+            ratio,
+            min(1.0, shapes * float(stats.chi2.sf(ratio, len(kind.specs())))),
+            self._best(space, options),
+            any(option.seen for option in options),
+            shapes,
         )
-        slopes = np.stack(
-            [self._change(space, neutral, index) for index in range(len(fit.u), len(neutral))],
-            axis=-1,
+
+    @cached_property
+    def drive(self) -> Excitation:
+        """What the fitted stretches offer to starting points."""
+        stretches, robot = self.fit.stretches, self.fit.model.robot
+        return Excitation(
+            force=max(float(np.abs(s.run.commands.force).max()) for s in stretches),
+            duration=max(float(s.time[-1]) for s in stretches),
+            mass=robot.mass,
+            inertia=robot.inertia,
+            orders=wheel_orders(self.fit),
         )
+
+    def _amounts(self, space: Space, kind: type[Effect], at: Array) -> '_Option':
+        """Return the amounts of an effect, of the shape that `at` has, that explain most."""
+        size = len(self.fit.u)
+        neutral = [
+            x if spec.name in kind.shape else c.prior
+            for spec, c, x in zip(kind.specs(), space.of_effects[-len(at) :], at, strict=True)
+        ]
+        point = np.concatenate([self.fit.u, neutral])
+        turned = [i for i, spec in enumerate(kind.specs()) if spec.name not in kind.shape]
+        slopes = np.stack([self._change(space, point, size + i) for i in turned], axis=-1)
         fall, amount, flat = self.explained(slopes)
-        strength = float(np.linalg.norm(flat)) / (float(np.linalg.norm(slopes)) + 1e-30)
-        seen = strength > 1e-3 and float(np.linalg.norm(flat)) > 1e-2
-        low, high = space.bounds()
-        inside = np.clip(neutral[len(fit.u) :] + amount, low[len(fit.u) :], high[len(fit.u) :])
-        options = [(fall, np.concatenate([fit.u, inside]))]
-        for guess in guesses(kind):
-            point = np.concatenate([fit.u, guess])
-            change = (self._errors_at(space, point) - fit.whitened)[..., None]
-            options.append((self.explained(change)[0], point))
-        ratio = max(option[0] for option in options)
-        p_value = float(stats.chi2.sf(ratio, len(kind.specs())))
-        return Score(ratio, p_value, self._best_start(space, options), seen)
+        point[[size + i for i in turned]] += amount
+        return _Option(fall, np.clip(point, *space.bounds()), _is_seen(flat, slopes))
+
+    def _as_it_stands(self, space: Space, start: Array) -> '_Option':
+        """Return what values that are far from neutral explain."""
+        point = np.concatenate([self.fit.u, start])
+        change = (self._errors_at(space, point) - self.fit.whitened)[..., None]
+        fall, _, flat = self.explained(change)
+        return _Option(fall, point, _is_seen(flat, change))
 
     def _errors_at(self, space: Space, point: Array) -> Array:
         return whitened(self.fit.stretches, space.model(point), self.fit.gains, self.fit.sigma)
@@ -101,9 +135,26 @@ class Screen:
         moved[index] += AMOUNT
         return np.asarray((self._errors_at(space, moved) - self.fit.whitened) / AMOUNT)
 
-    def _best_start(self, space: Space, options: list[tuple[float, Array]]) -> Array:
-        """Return the option with the lowest actual error."""
+    def _best(self, space: Space, options: Sequence['_Option']) -> tuple[Array, ...]:
+        """Return the points with the lowest actual errors, of those that promise most."""
+        first = sorted(options, key=lambda option: -option.fall)[:COMPARED]
         losses = [
-            float(np.clip(self._errors_at(space, point) ** 2, 0, 9).sum()) for _, point in options
+            float(np.clip(self._errors_at(space, option.point) ** 2, 0, 9).sum())
+            for option in first
         ]
-        return options[int(np.argmin(losses))][1]
+        return tuple(first[index].point for index in np.argsort(losses)[:FOLLOWED])
+
+
+@dataclass(frozen=True)
+class _Option:
+    """A point at which a full fit may begin, and how much it promises."""
+
+    fall: float
+    point: Array
+    seen: bool
+
+
+def _is_seen(flat: Array, slopes: Array) -> bool:
+    """Say whether anything is left once the free parameters have adapted."""
+    left = float(np.linalg.norm(flat))
+    return left > 1e-2 and left > 1e-3 * float(np.linalg.norm(slopes))

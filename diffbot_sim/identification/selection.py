@@ -138,7 +138,7 @@ def _try(screen: Screen, kind: type[Effect], held_out: Sequence[Stretch], tried:
         return Trial(kind, None, evidence, outcome)
     fit = extend(screen, kind, score)
     evidence = compare(screen.fit, fit, held_out)
-    return Trial(kind, fit, evidence, judge(evidence, tried))
+    return Trial(kind, fit, evidence, judge(evidence, tried * score.shapes))
 
 
 def _prune(

@@ -1,7 +1,7 @@
 """Recorded runs as identification uses them: stretches to be fitted and to be held out."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -81,7 +81,12 @@ def _stretch(run: Run, odometry: Odometry, begin: float, end: float) -> Stretch:
         )
     pose = None if odometry.pose is None else odometry.pose[part]
     heading = _integral(time, twist[:, 1]) if pose is None else pose[:, 2]
-    start = _start(time, twist, pose, float(heading[0]))
+    travelled, turned = (_integral(odometry.time, rate)[part][0] for rate in odometry.twist.T)
+    start = replace(
+        _start(time, twist, pose, float(heading[0])),
+        travelled=float(travelled),
+        turned=float(turned),
+    )
     used = (time > time[0] + SETTLING).astype(float)
     return Stretch(run, time, twist, np.ascontiguousarray(heading), pose, start, used)
 

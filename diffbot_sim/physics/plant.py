@@ -1,5 +1,8 @@
 """A live robot that a node steps: the same compiled physics, one tick at a time."""
 
+from collections import deque
+from math import inf
+
 import numpy as np
 from numba import types
 
@@ -7,6 +10,7 @@ from diffbot_sim.physics.compiled import entry
 from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
 from diffbot_sim.physics.instant import Inputs
 from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.schedule import delay_of, moments_of
 from diffbot_sim.physics.simulation import (
     MATRIX,
     OUTPUT_SIZE,
@@ -54,14 +58,39 @@ class Plant:
 
     def step(self, force_right: float, force_left: float, duration: float) -> None:
         """Hold forces [N] on the wheels for a duration [s]."""
-        self._force = (force_right, force_left)
+        self._take((force_right, force_left))
+        end = self.time + duration
+        while (cut := self._next_cut()) < end:
+            self._run(cut - self.time)
+            self.time = cut
+            self._arrive()
+            duration = end - cut
         self._run(duration)
-        self.time += duration
+        self.time = end
+        self._arrive()
 
     def command(self, force_right: float, force_left: float) -> None:
         """Take forces [N] without advancing, so that friction shows what they meet."""
-        self._force = (force_right, force_left)
+        self._take((force_right, force_left))
         self._run(0.0)
+
+    def _take(self, force: tuple[float, float]) -> None:
+        """Let forces act, at once or when they arrive."""
+        if self._delay == 0.0:
+            self._force = force
+            return
+        while self._coming and self._coming[-1][0] >= self.time + self._delay:
+            self._coming.pop()  # given at this very moment: the later word counts
+        self._coming.append((self.time + self._delay, force))
+
+    def _next_cut(self) -> float:
+        """Return when a delayed command arrives or an effect changes abruptly next; or never."""
+        cuts = [arrival for arrival, _ in self._coming] + list(self._moments)
+        return min((cut for cut in cuts if cut > self.time), default=inf)
+
+    def _arrive(self) -> None:
+        while self._coming and self._coming[0][0] <= self.time:
+            self._force = self._coming.popleft()[1]
 
     @property
     def pose(self) -> tuple[float, float, float]:
@@ -100,6 +129,8 @@ class Plant:
         self._model = model
         self._functions = compose(tuple(type(effect) for effect in model.effects))
         self._params = model.pack()
+        self._delay, self._moments = delay_of(model), moments_of(model)
+        self._coming: deque[tuple[float, tuple[float, float]]] = deque()
         held = Traction(*self._force)
         self._states = np.array([s for e in model.effects for s in e.initial_state(held)])
         self._modes = np.zeros(3, np.int64)

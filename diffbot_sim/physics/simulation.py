@@ -12,6 +12,7 @@ from diffbot_sim.physics.contact import Modes, instant_at
 from diffbot_sim.physics.instant import Inputs
 from diffbot_sim.physics.kinematics import wheel_speeds
 from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.stages import Traction
 from diffbot_sim.physics.state import State
 from diffbot_sim.physics.stepper import advance, update_contacts
@@ -38,6 +39,7 @@ def simulate(
     Steps are at most max_step [s] long, cut at stamps and command changes.
     """
     functions = compose(tuple(type(effect) for effect in model.effects))
+    commands = scheduled(model, commands)
     z = initial_vector(model, start or State())
     out = np.empty((len(times), OUTPUT_SIZE))
     _simulate(
@@ -63,15 +65,19 @@ def simulate(
 
 
 def initial_vector(model: Model, start: State) -> Array:
-    """Return the state vector z of a start: pose, wheel angles 0, wheel speeds."""
-    right, left = wheel_speeds(start.v, start.omega, model.robot.half_separation)
-    return np.array([start.x, start.y, start.heading, 0.0, 0.0, right, left])
+    """Return the state vector z of a start: pose, wheel angles, wheel speeds."""
+    b, r = model.robot.half_separation, model.robot.wheel_radius
+    ways, speeds = (
+        wheel_speeds(start.travelled, start.turned, b),
+        wheel_speeds(start.v, start.omega, b),
+    )
+    return np.array([start.x, start.y, start.heading, ways[0] / r, ways[1] / r, *speeds])
 
 
 def initial_states(model: Model, commands: Commands, time: float) -> Array:
     """Return the effect states at a time [s]: what the commands before it have left behind.
 
-    The first command is taken to have acted for long; before it the force is 0.
+    commands: as scheduled. The first is taken to have acted for long; before it the force is 0.
     """
     known = len(commands.time) > 0 and commands.time[0] <= time
     first = Traction(*map(float, commands.force[0])) if known else Traction(0.0, 0.0)

@@ -5,11 +5,11 @@ from importlib import import_module
 from importlib.metadata import entry_points
 from pkgutil import iter_modules
 
-from diffbot_sim.physics.effects.effect import Effect
+from diffbot_sim.physics.effects.effect import Effect, Excitation
 
 ENTRY_POINT_GROUP = 'diffbot_sim.effects'
 
-__all__ = ['Effect', 'library']
+__all__ = ['Effect', 'Excitation', 'library']
 
 
 @cache

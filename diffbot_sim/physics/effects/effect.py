@@ -2,10 +2,24 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 from diffbot_sim.parameters import Spec, specs
 from diffbot_sim.physics.stages import Stage, Traction
+
+
+class Excitation(NamedTuple):
+    """What a recorded drive offers, for fits whose starting points depend on it.
+
+    force: largest command [N]; duration: of the longest run [s]; mass [kg] and inertia [kg·m²] as
+    fitted so far; orders: cycles per wheel revolution at which the residual is strongest.
+    """
+
+    force: float
+    duration: float
+    mass: float
+    inertia: float
+    orders: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -22,7 +36,8 @@ class Effect:
     states: how many numbers of state it keeps (stage ACTUATOR or COMMAND only).
     update: compiled, same arguments; returns the state after `at.elapsed` seconds.
     dissipative: whether it can only take energy away.
-    guesses: departures from neutral, one value for each parameter, from which fits start.
+    guesses: values of the parameters from which fits start.
+    shape: names of parameters that mean nothing while the others are neutral (a moment, a period).
     excitation: the drive that shows it.
     """
 
@@ -35,6 +50,7 @@ class Effect:
     update: ClassVar[Callable[..., Any] | None] = None
     dissipative: ClassVar[bool] = False
     guesses: ClassVar[tuple[tuple[float, ...], ...]]
+    shape: ClassVar[tuple[str, ...]] = ()
     excitation: ClassVar[str]
 
     @classmethod
@@ -46,6 +62,22 @@ class Effect:
     def values(self) -> tuple[float, ...]:
         """The parameter values in the order of the fields."""
         return tuple(float(getattr(self, item.name)) for item in fields(self))
+
+    @property
+    def delay(self) -> float:
+        """By how much commands come late [s]."""
+        return 0.0
+
+    @property
+    def moments(self) -> tuple[float, ...]:
+        """When the kernel changes abruptly, in time of the run [s]: steps are cut there."""
+        return ()
+
+    @classmethod
+    def starts(cls, drive: Excitation) -> tuple[tuple[float, ...], ...]:
+        """Return values of the parameters from which fits to this drive start."""
+        del drive
+        return cls.guesses
 
     @classmethod
     def initial_state(cls, command: Traction) -> tuple[float, ...]:

@@ -1,0 +1,63 @@
+"""At which periods of the wheel angle a residual repeats: cheap, before anything is simulated."""
+
+import numpy as np
+
+from diffbot_sim.identification.fitting import Fit, predictions
+from diffbot_sim.records import Array
+
+# Orders [cycles per revolution] that are looked at, and how many of the strongest are kept.
+LOWEST, HIGHEST, KEPT = 0.2, 60.0, 4
+# Points per line width of the spectrum; samples that a cycle needs at the usual speed.
+FINENESS, SAMPLES_PER_CYCLE = 3.0, 3.0
+# Memory for one block of orders, in numbers.
+BLOCK = 4_000_000
+
+
+def wheel_orders(fit: Fit) -> tuple[float, ...]:
+    """Return the cycles per wheel revolution at which the innovations are strongest."""
+    angles, errors = _by_wheel(fit)
+    moving = np.abs(np.diff(angles, axis=0, prepend=angles[:1])) > 0.0
+    weights = np.where(moving, errors, 0.0)
+    steps = np.abs(np.diff(angles, axis=0))
+    usual = float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else 0.0
+    if usual == 0.0:
+        return ()
+    spacing = 2.0 * np.pi / (FINENESS * float(np.ptp(angles, axis=0).max()))
+    highest = min(HIGHEST, 2.0 * np.pi / (SAMPLES_PER_CYCLE * usual))
+    orders = np.arange(LOWEST, highest, max(spacing, 1e-4))
+    if len(orders) < 3:
+        return ()
+    return _peaks(orders, _power(orders, angles, weights))
+
+
+def _by_wheel(fit: Fit) -> tuple[Array, Array]:
+    """Return wheel angles [rad] and the wheels' share of the innovations, columns right, left."""
+    b, r = fit.model.robot.half_separation, fit.model.robot.wheel_radius
+    mix = np.array([[1.0, 1.0], [b, -b]])
+    angles, errors = [], []
+    for stretch, found in zip(fit.stretches, predictions(fit, fit.stretches), strict=True):
+        steps = np.diff(stretch.time)[:, None] * found.twist[:-1] @ mix / r
+        first = np.array([stretch.start.travelled, stretch.start.turned]) @ mix / r
+        angles.append(first + np.vstack([np.zeros(2), np.cumsum(steps, axis=0)]))
+        errors.append((found.innovation * stretch.used[:, None]) @ mix)
+    return np.concatenate(angles), np.concatenate(errors)
+
+
+def _power(orders: Array, angles: Array, errors: Array) -> Array:
+    """Return the squared amplitude at each order, both wheels together."""
+    power = np.zeros(len(orders))
+    size = max(1, BLOCK // len(angles))
+    for begin in range(0, len(orders), size):
+        block = orders[begin : begin + size]
+        for wheel in range(2):
+            waves = np.exp(1j * np.outer(block, angles[:, wheel]))
+            power[begin : begin + size] += np.abs(waves @ errors[:, wheel]) ** 2
+    return power
+
+
+def _peaks(orders: Array, power: Array) -> tuple[float, ...]:
+    """Return the orders of the highest local maxima, the highest first."""
+    inner = (power[1:-1] >= power[:-2]) & (power[1:-1] >= power[2:])
+    places = 1 + np.flatnonzero(inner)
+    best = places[np.argsort(power[places])[::-1][:KEPT]]
+    return tuple(float(orders[place]) for place in best)

@@ -1,0 +1,38 @@
+"""payload_change: v = F t / m before the moment, and with the new mass after it."""
+
+import numpy as np
+from motion import commands, push
+
+from diffbot_sim.physics import Friction, Model, Plant, simulate
+from diffbot_sim.physics.effects.payload_change import PayloadChange
+
+SMOOTH = Friction('none')
+
+
+def test_acceleration_changes_at_the_moment_whatever_the_step():
+    model = Model(friction=SMOOTH, effects=(PayloadChange(5.0, 0.0, 1.2345),))
+    for step in (1e-3, 0.02, 0.3):
+        run = push(model, 5.0, 5.0, 3.0, every=0.5, max_step=step)
+        early, late = np.minimum(run.time, 1.2345), np.maximum(run.time - 1.2345, 0.0)
+        np.testing.assert_allclose(run.twist[:, 0], early + late / 1.5, rtol=1e-9)
+
+
+def test_turning_changes_too():
+    model = Model(friction=SMOOTH, effects=(PayloadChange(0.0, 0.4, 1.0),))
+    run = push(model, 1.0, -1.0, 2.0, every=1.0)
+    np.testing.assert_allclose(np.diff(run.twist[:, 1]), [1.0, 0.5], rtol=1e-9)
+
+
+def test_live_robot_is_loaded_at_the_same_moment():
+    model = Model(friction=SMOOTH, effects=(PayloadChange(5.0, 0.1, 0.505),))
+    plant = Plant(model)
+    for _ in range(100):
+        plant.step(6.0, 4.0, 0.01)
+    run = simulate(model, commands((0.0, 6.0, 4.0)), np.array([0.0, 1.0]))
+    np.testing.assert_allclose(plant.twist, run.twist[-1], rtol=1e-9)
+
+
+def test_load_taken_off_never_leaves_less_than_nothing():
+    run = push(Model(effects=(PayloadChange(-50.0, -3.0, 0.5),)), 5.0, 4.0, 2.0)
+    assert np.isfinite(run.pose).all()
+    assert run.twist[-1, 0] > 0.0
