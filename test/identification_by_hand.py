@@ -17,7 +17,7 @@ from diffbot_sim.identification.result import (
     Identification,
     Structure,
 )
-from diffbot_sim.physics.effects import Effect, library
+from diffbot_sim.physics.effects import Effect, laws, library
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.robot import Robot
 from diffbot_sim.records import Array, Trajectory
@@ -90,7 +90,7 @@ def errors(recalibrated: float) -> Errors:
 
 def candidates(first: str) -> tuple[Candidate, ...]:
     """Return one trial of each effect, the first one successful; one has no number."""
-    names = sorted(library(), key=lambda name: (name != first, name))
+    names = sorted(laws(), key=lambda name: (name != first, name))
     scores = [812.4, 47.0, *np.linspace(6.0, -9.0, len(names) - 2)]
     outcomes = [
         'entered' if first else 'rejected',

@@ -41,6 +41,8 @@ def within_reach(kind: type[Effect]) -> st.SearchStrategy[Effect]:
 
 
 def reach_of(spec: Spec) -> st.SearchStrategy[float]:
+    if spec.choices:
+        return st.sampled_from(spec.choices)
     if spec.reciprocal:
         return st.floats(0.01 * spec.scale, 10.0 * spec.scale)
     low, high = spec.default - 10.0 * spec.scale, spec.default + 10.0 * spec.scale
@@ -60,8 +62,10 @@ def test_every_field_of_an_effect_is_a_bounded_parameter(kind):
     names = [spec.name for spec in kind.specs()]
     assert names == [field.name for field in fields(kind)]
     for spec in kind.specs():
-        assert spec.unit
         assert spec.meaning
+        if spec.choices:
+            continue
+        assert spec.unit
         assert isfinite(spec.low)
         assert isfinite(spec.high)
         assert 0.0 < spec.scale <= spec.high - spec.low

@@ -10,7 +10,7 @@ from diffbot_sim.errors import DataError
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.physics import Friction, Model, Robot
-from diffbot_sim.physics.effects import library
+from diffbot_sim.physics.effects import laws, library
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
 from diffbot_sim.records import Commands, Odometry, Run
 
@@ -41,14 +41,14 @@ def test_robot_that_is_only_miscalibrated_lacks_nothing(around: Surroundings) ->
     assert (result.verdict, result.effects, result.unexplained) == ('nothing_missing', (), None)
 
 
-@pytest.mark.parametrize('name', list(library()))
+@pytest.mark.parametrize('name', list(laws()))
 def test_hidden_effect_is_named_alone(name: str) -> None:
     result = answer(name)
     assert [effect.name for effect in result.effects] == [name]
     assert result.verdict == 'effects_found'
 
 
-@pytest.mark.parametrize('name', list(library()))
+@pytest.mark.parametrize('name', list(laws()))
 def test_error_with_the_effect_falls_to_the_noise_floor(name: str) -> None:
     errors = answer(name).errors
     assert errors.with_effects.v_rmse < 1.05 * errors.noise_floor.v_rmse
@@ -67,7 +67,7 @@ def test_two_effects_hidden_in_one_run_are_both_named() -> None:
 
 
 def test_effect_that_the_library_lacks_is_unexplained_and_its_variable_named() -> None:
-    others = [kind for name, kind in library().items() if name != 'slope']
+    others = [kind for name, kind in laws().items() if name != 'slope']
     result = identify([run_of(with_typical('slope'), 6)], DECLARED, kinds=others)
     assert result.verdict == 'unexplained'
     assert result.unexplained is not None

@@ -16,7 +16,7 @@ import pytest
 from rich.console import Console
 
 from diffbot_sim.identification.result import Estimate, Identification
-from diffbot_sim.physics.effects import library
+from diffbot_sim.physics.effects import laws, library
 from diffbot_sim.report import figures, print_summary, sentences, write_report
 from diffbot_sim.report.dependence import binned
 from diffbot_sim.report.json_report import json_text
@@ -95,7 +95,7 @@ def test_page_cannot_be_broken_by_a_name() -> None:
     assert '<script>alert' not in page
 
 
-@pytest.mark.parametrize('name', sorted(library()))
+@pytest.mark.parametrize('name', sorted(laws()))
 def test_every_effect_of_the_library_can_be_told(name: str) -> None:
     result = by_hand.found(name)
     assert library()[name].meaning[1:60] in page_text(result).replace('&#39;', "'")

@@ -10,7 +10,7 @@ def effects_help() -> str:
     lines = ["effects (keys below 'effects:' in the parameter file; one that is absent is off):"]
     for name, kind in sorted(library().items()):
         lines += ['', f'  {name}: {kind.meaning}']
-        lines += [f'    {_line(spec)}, neutral {spec.default:g}' for spec in kind.specs()]
+        lines += [f'    {_line(spec)}, neutral {_text(spec.default)}' for spec in kind.specs()]
     return '\n'.join(lines)
 
 
@@ -29,6 +29,10 @@ def drive_help() -> str:
             *(f'    {_line(spec)}' for spec in specs(Segment)),
         ]
     )
+
+
+def _text(value: float | str) -> str:
+    return value if isinstance(value, str) else f'{value:g}'
 
 
 def _line(spec: Spec) -> str:

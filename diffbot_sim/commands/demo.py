@@ -17,7 +17,7 @@ from diffbot_sim.commands._processes import Process, stopped_at_end
 from diffbot_sim.config import save_model
 from diffbot_sim.errors import DiffbotError
 from diffbot_sim.physics import simulate
-from diffbot_sim.physics.effects import Effect, library
+from diffbot_sim.physics.effects import Effect, laws
 from diffbot_sim.physics.model import Model
 
 NOISE = {'linear': 0.004, 'angular': 0.008}  # of the odometry [m/s], [rad/s]
@@ -43,7 +43,7 @@ def run(arguments: Namespace) -> None:
     hidden = hide(declared, seed)
     save_model(declared, out / 'declared.yaml', 'What we believe of the robot.')
     save_model(hidden, out / 'hidden.yaml', 'What the robot is; identify never sees this file.')
-    print(f'SEED={seed}: one of {len(library())} effects is hidden in the robot.\n')
+    print(f'SEED={seed}: one of {len(hideable())} effects is hidden in the robot.\n')
     print(f'1. Driving it for {LEARNING:g} s of simulation time through ROS 2 ...', flush=True)
     drive(out / 'hidden.yaml', out / 'bag', LEARNING, seed)
     print('2. Learning from the bag what the declared model lacks ...\n', flush=True)
@@ -60,7 +60,7 @@ def run(arguments: Namespace) -> None:
 def hide(declared: Model, seed: int) -> Model:
     """Return the robot that is driven: miscalibrated, with one effect that nobody declared."""
     random = np.random.default_rng(seed)
-    kinds = list(library().values())
+    kinds = hideable()
     effect = _some(kinds[random.integers(len(kinds))], random)
     off = 1.0 + MISCALIBRATION * random.uniform(-1.0, 1.0, 4)
     robot = replace(
@@ -111,6 +111,15 @@ def _prepare(out: Path) -> None:
     elif out.exists() and any(out.iterdir()):
         raise DiffbotError(f'{out}: is not empty and holds no earlier demo. Choose another OUT.')
     out.mkdir(parents=True, exist_ok=True)
+
+
+def hideable() -> list[type[Effect]]:
+    """Return the effects whose sizes can be drawn one by one: no moments, periods and limits."""
+    return [
+        kind
+        for kind in laws().values()
+        if not kind.shape and not any(spec.reciprocal for spec in kind.specs())
+    ]
 
 
 def _some(kind: type[Effect], random: np.random.Generator) -> Effect:

@@ -93,7 +93,8 @@ def _variables(fit: Fit, stretch: Stretch, prediction: Prediction) -> dict[str, 
     commands = stretch.run.commands
     force = _held(commands.time, commands.force, time)
     before = _held(commands.time, commands.force, time - RECENT)
-    way = np.concatenate([[0.0], np.cumsum(np.diff(time) * prediction.twist[:-1, 0])])
+    steps = np.cumsum(np.diff(time) * prediction.twist[:-1, 0])
+    way = stretch.start.travelled + np.concatenate([[0.0], steps])
     return {
         'v': prediction.twist[:, 0],
         'omega': prediction.twist[:, 1],

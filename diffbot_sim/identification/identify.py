@@ -7,6 +7,7 @@ from diffbot_sim.errors import DataError
 from diffbot_sim.identification.calibration import calibrate, simulation_error
 from diffbot_sim.identification.comparison import compare_models, errors_of
 from diffbot_sim.identification.coordinates import Space
+from diffbot_sim.identification.empirical import table_of, with_term
 from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction, fit_simulation
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import (
@@ -24,7 +25,7 @@ from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch, split, whole
 from diffbot_sim.identification.structure import describe, find_structure, outdone
 from diffbot_sim.identification.uncertainty import estimates
-from diffbot_sim.physics.effects import Effect, library
+from diffbot_sim.physics.effects import Effect, laws, library
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Run
 
@@ -60,6 +61,8 @@ def identify(
     progress('looking for structure that is left')
     selection, unexplained = _doubt(selection, held_out)
     final = _for_simulation(selection, recalibrated)
+    closed = unexplained and with_term(final, unexplained, held_out)
+    final = closed or final
     comparisons = compare_models(declared, recalibrated.model, final, held_out)
     return Identification(
         verdict=_verdict(selection, unexplained),
@@ -73,6 +76,7 @@ def identify(
         identified=final.model,
         comparisons=comparisons,
         advice=_advice(selection),
+        empirical=table_of(unexplained) if closed and unexplained else None,
     )
 
 
@@ -88,7 +92,7 @@ def _check(stretches: Sequence[Stretch]) -> None:
 def _candidates(declared: Model, kinds: Sequence[type[Effect]] | None) -> tuple[type[Effect], ...]:
     """Return the effects to try: what the declared model has is not missing."""
     present = {effect.name for effect in declared.effects}
-    chosen = library().values() if kinds is None else kinds
+    chosen = laws().values() if kinds is None else kinds
     return tuple(kind for kind in chosen if kind.name not in present)
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+from diffbot_sim.physics.effects.empirical_force import EmpiricalForce
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array, Trajectory
 
@@ -115,7 +116,11 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Identification:
-    """The whole answer."""
+    """The whole answer.
+
+    empirical: the table in `identified` that stands for what is unexplained, if it simulates
+    better with it.
+    """
 
     verdict: str
     effects: tuple[FoundEffect, ...]
@@ -128,3 +133,4 @@ class Identification:
     identified: Model
     comparisons: tuple[Comparison, ...]
     advice: tuple[str, ...] = ()
+    empirical: EmpiricalForce | None = None

@@ -95,7 +95,9 @@ def initial_states(model: Model, commands: Commands, time: float) -> Array:
 def _settle_through(  # type: ignore[no-untyped-def]
     settle, params, states, z, command_time, force, until
 ) -> None:
-    """Let the effect states live through all commands up to a time [s]."""
+    """Let the effect states live through all commands up to a time [s], the first one for ever."""
+    for_ever = motion_at(params, z, command_time[0], np.inf)
+    settle(params, states, for_ever, Inputs(force[0, 0], force[0, 1], 0.0, 0.0))
     for k, begin in enumerate(command_time):
         if begin >= until:
             break

@@ -1,7 +1,7 @@
 """The base of every effect: what a file in this folder must declare."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
 from diffbot_sim.parameters import Spec, specs
@@ -36,6 +36,7 @@ class Effect:
     states: how many numbers of state it keeps (stage ACTUATOR or COMMAND only).
     update: compiled, same arguments; returns the state after `at.elapsed` seconds.
     dissipative: whether it can only take energy away.
+    is_law: whether it has a law that identification may name; False for mere descriptions.
     guesses: values of the parameters from which fits start.
     shape: names of parameters that mean nothing while the others are neutral (a moment, a period).
     excitation: the drive that shows it.
@@ -49,7 +50,8 @@ class Effect:
     states: ClassVar[int] = 0
     update: ClassVar[Callable[..., Any] | None] = None
     dissipative: ClassVar[bool] = False
-    guesses: ClassVar[tuple[tuple[float, ...], ...]]
+    is_law: ClassVar[bool] = True
+    guesses: ClassVar[tuple[tuple[Any, ...], ...]]
     shape: ClassVar[tuple[str, ...]] = ()
     excitation: ClassVar[str]
 
@@ -60,8 +62,8 @@ class Effect:
 
     @property
     def values(self) -> tuple[float, ...]:
-        """The parameter values in the order of the fields."""
-        return tuple(float(getattr(self, item.name)) for item in fields(self))
+        """The parameter values in the order of the fields; a choice as its place."""
+        return tuple(_number(spec, getattr(self, spec.name)) for spec in self.specs())
 
     @property
     def delay(self) -> float:
@@ -84,3 +86,7 @@ class Effect:
         """Return the state of a robot that has had this command for long."""
         del command
         return ()
+
+
+def _number(spec: Spec, value: Any) -> float:
+    return float(spec.choices.index(value) if spec.choices else value)

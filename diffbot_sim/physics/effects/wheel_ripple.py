@@ -5,7 +5,7 @@ from math import cos, sin
 
 from diffbot_sim.parameters import parameter
 from diffbot_sim.physics.compiled import compiled
-from diffbot_sim.physics.effects.effect import Effect
+from diffbot_sim.physics.effects.effect import Effect, Excitation
 from diffbot_sim.physics.stages import Motion, Stage, Traction
 
 
@@ -53,6 +53,7 @@ class WheelRipple(Effect):
     stage = Stage.ACTUATOR
     kernel = ripple
     guesses = tuple((order, *only) for order in ORDERS for only in ALONE)
+    shape = ('order',)
     excitation = 'slow, steady rolling over many turns of each wheel'
 
     order: float = parameter(
@@ -62,3 +63,8 @@ class WheelRipple(Effect):
     right_sin: float = amplitude('amplitude s of the right wheel')
     left_cos: float = amplitude('amplitude c of the left wheel')
     left_sin: float = amplitude('amplitude s of the left wheel')
+
+    @classmethod
+    def starts(cls, drive: Excitation) -> tuple[tuple[float, ...], ...]:
+        """Try the orders at which the residual repeats; their amplitudes follow."""
+        return tuple((order, 0.1, 0.0, 0.1, 0.0) for order in drive.orders) or cls.guesses[:1]
