@@ -37,7 +37,12 @@ def message(path: Path) -> str:
 
 
 def within_bounds(kind: type[Effect] | type[Robot]) -> st.SearchStrategy[Effect | Robot]:
-    bounds = {spec.name: st.floats(spec.low, spec.high) for spec in specs(kind)}
+    bounds = {
+        spec.name: st.sampled_from(spec.choices)
+        if spec.choices
+        else st.floats(spec.low, spec.high)
+        for spec in specs(kind)
+    }
     return st.builds(kind, **bounds)
 
 
@@ -60,7 +65,7 @@ def test_a_saved_model_is_loaded_back_to_the_same_bits(tmp_path_factory, model):
 
 def test_every_parameter_of_the_library_has_bounds():
     known = [spec for kind in (Robot, *library().values()) for spec in specs(kind)]
-    assert all(-inf < spec.low < spec.high < inf for spec in known)
+    assert all(spec.choices or -inf < spec.low < spec.high < inf for spec in known)
 
 
 def test_the_sample_file_holds_the_defaults():

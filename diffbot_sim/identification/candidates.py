@@ -5,20 +5,28 @@ from diffbot_sim.identification.fitting import Fit, fit_prediction, fit_with_noi
 from diffbot_sim.identification.screening import Score, Screen
 from diffbot_sim.physics.effects import Effect
 
-# Evaluations after which one of several starts is chosen.
+# Evaluations after which a start, or an effect, is compared with others.
 SHORT = 4
 
 
-def extend(screen: Screen, kind: type[Effect], score: Score) -> Fit:
-    """Fit a structure with one effect more: first with the noise model held, then with all."""
+def approach(screen: Screen, kind: type[Effect], score: Score) -> Fit:
+    """Fit a structure with one effect more for a short while, the noise model held.
+
+    Each start has a local minimum of its own; the best is returned.
+    """
     base = screen.fit
     space = Space(base.space.declared, (*base.space.kinds, kind))
-    starts = list(score.starts)
-    if len(starts) > 1:  # local minima: follow several for a while
-        tried = [fit_with_noise_held(space, base.stretches, s, base.gains, SHORT) for s in starts]
-        starts = [min(tried, key=lambda fit: fit.deviance(base.sigma)).u]
-    near = fit_with_noise_held(space, base.stretches, starts[0], base.gains)
-    return fit_prediction(space, base.stretches, near.u, near.gains, evaluations=8, rounds=2)
+    tried = [
+        fit_with_noise_held(space, base.stretches, start, base.gains, SHORT, rounds=1)
+        for start in score.starts
+    ]
+    return min(tried, key=lambda fit: fit.deviance(base.sigma))
+
+
+def complete(near: Fit) -> Fit:
+    """Fit to the end what was approached: first with the noise model held, then with all."""
+    held = fit_with_noise_held(near.space, near.stretches, near.u, near.gains)
+    return fit_prediction(near.space, near.stretches, held.u, held.gains, evaluations=8, rounds=2)
 
 
 def reduce(fit: Fit, name: str) -> Fit:

@@ -9,6 +9,7 @@ from diffbot_sim.identification.result import Comparison, ErrorNorm, Errors
 from diffbot_sim.identification.start import start_of
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.physics import simulate
+from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array, Trajectory
 
@@ -18,7 +19,7 @@ MAX_STEP = 0.005
 def run_free(model: Model, stretch: Stretch) -> Trajectory:
     """Simulate a stretch from its first state with the recorded forces alone."""
     start = start_of(model, stretch, MAX_STEP)
-    return simulate(model, stretch.run.commands, stretch.time, start, MAX_STEP)
+    return simulate(embedded(model), stretch.run.commands, stretch.time, start, MAX_STEP)
 
 
 def compare_models(

@@ -125,6 +125,7 @@ def fit_with_noise_held(
     start: Array,
     gains: Array,
     evaluations: int = 12,
+    rounds: int = 2,
 ) -> Fit:
     """Fit the parameters alone, the noise model as it is given."""
 
@@ -132,7 +133,7 @@ def fit_with_noise_held(
         return whitened(stretches, space.model(at), gains, sigma)
 
     prior = Prior(space.prior(), space.deviations())
-    point, sigma = _minimise(errors, start, prior, space.bounds(), evaluations, rounds=2)
+    point, sigma = _minimise(errors, start, prior, space.bounds(), evaluations, rounds)
     return Fit(space, stretches, point, gains, sigma)
 
 

@@ -20,10 +20,11 @@ from diffbot_sim.identification.result import (
     Structure,
 )
 from diffbot_sim.identification.screening import Screen
-from diffbot_sim.identification.selection import UNSEEN, Selection, Trial, select
+from diffbot_sim.identification.selection import Selection, select
 from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch, split, whole
 from diffbot_sim.identification.structure import describe, find_structure, outdone
+from diffbot_sim.identification.trials import UNSEEN, Trial
 from diffbot_sim.identification.uncertainty import estimates
 from diffbot_sim.physics.effects import Effect, laws, library
 from diffbot_sim.physics.model import Model

@@ -16,6 +16,7 @@ from diffbot_sim.physics import contact
 from diffbot_sim.physics.compiled import compiled, entry
 from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
 from diffbot_sim.physics.contact import FREE, LEFT, RIGHT, YAW, Modes
+from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.simulation import (
@@ -57,7 +58,7 @@ def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = N
     gains, shape (6,): see NO_GAIN. push, shape (k, 2): an extra force [N] and torque [N·m] on the
     body after each sample.
     """
-    count = len(stretch.time)
+    count, model = len(stretch.time), embedded(model)
     out = np.zeros((count, 6))
     commands = scheduled(model, stretch.run.commands)
     _predict(

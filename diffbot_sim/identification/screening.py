@@ -18,7 +18,7 @@ AMOUNT = 0.05
 # Only what could not plausibly be chance is worth a full fit.
 PROMISING = 0.02
 # How many options are compared by their actual error, and how many of them may be followed.
-COMPARED, FOLLOWED = 8, 3
+COMPARED, FOLLOWED = 6, 2
 
 
 @dataclass(frozen=True)

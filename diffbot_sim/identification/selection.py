@@ -1,49 +1,21 @@
 """Which effects enter: forward while the evidence is beyond doubt, then backward."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
-from diffbot_sim.identification.candidates import extend, reduce
+from diffbot_sim.identification.candidates import approach, complete, reduce
 from diffbot_sim.identification.evidence import Evidence, compare, delta_bic
 from diffbot_sim.identification.fitting import Fit
-from diffbot_sim.identification.screening import PROMISING, Screen
+from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.stretches import Stretch
+from diffbot_sim.identification.trials import LIKELIHOOD_LEVEL, OUTDONE, Progress, Trial, try_all
 from diffbot_sim.physics.effects import Effect
 
-# An effect enters when all four agree. The likelihood ratio, corrected for the number tried,
-# guards against chance; the block test against disturbances that are no white noise; the
-# held-out gain against fitting them.
-LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_LEVEL = 1e-3, 1e-2, 0.05
 # Structures closer than this in BIC cannot be told apart.
 INDISTINGUISHABLE = 10.0
 # What explains less than this share of a found effect's worth to first order is no rival of it.
 RIVAL_SHARE = 0.5
 MOST_EFFECTS = 4
-
-Progress = Callable[[str], None]
-
-
-@dataclass(frozen=True)
-class Trial:
-    """One effect tried on top of a structure."""
-
-    kind: type[Effect]
-    fit: Fit | None
-    evidence: Evidence
-    outcome: str
-
-    @property
-    def accepted(self) -> bool:
-        """Whether the evidence was beyond doubt."""
-        return self.outcome == SUPPORTED
-
-
-SUPPORTED = 'supported'
-CHANCE = 'no better than chance'
-OUTDONE = 'resembles what acts, but a free-form force explains more'
-UNSEEN = 'not excited by this drive'
 
 
 @dataclass(frozen=True)
@@ -86,7 +58,7 @@ def select(
     """Search the structures made of these effects."""
     current, last, path = base, dict[str, Trial](), [base]
     while len(current.space.kinds) < MOST_EFFECTS:
-        trials = _try_all(current, kinds, held_out, progress)
+        trials = try_all(current, kinds, held_out, progress)
         last.update({trial.kind.name: trial for trial in trials})
         entering = [trial for trial in trials if trial.accepted]
         if not entering:
@@ -102,43 +74,6 @@ def select(
         name: _alternatives(final, rest, kinds, progress) for name, rest in without.items()
     }
     return Selection(base, final, tuple(reversed(trials)), without, support, alternatives)
-
-
-def judge(evidence: Evidence, tried: int) -> str:
-    """Say whether an effect may enter, or why not."""
-    if evidence.p_value * tried > LIKELIHOOD_LEVEL or evidence.delta_bic <= 0.0:
-        return CHANCE
-    if evidence.p_block > BLOCK_LEVEL:
-        return 'not beyond a disturbance that changes slowly'
-    if evidence.p_held_out > HELD_OUT_LEVEL:
-        return 'does not predict held-out data better'
-    return SUPPORTED
-
-
-def _try_all(
-    current: Fit, kinds: Sequence[type[Effect]], held_out: Sequence[Stretch], progress: Progress
-) -> list[Trial]:
-    """Screen every effect that is not there yet; fit and weigh what is promising."""
-    present = {effect.name for effect in current.model.effects}
-    screen = Screen(current)
-    trials = []
-    for kind in kinds:
-        if kind.name not in present:
-            progress(f'trying {kind.name}')
-            trials.append(_try(screen, kind, held_out, len(kinds)))
-    return trials
-
-
-def _try(screen: Screen, kind: type[Effect], held_out: Sequence[Stretch], tried: int) -> Trial:
-    score = screen.score(kind)
-    if not score.seen or score.p_value > PROMISING:
-        outcome = CHANCE if score.seen else UNSEEN
-        cost = len(kind.specs()) * float(np.log(screen.fit.whitened.size))
-        evidence = Evidence(score.ratio - cost, score.p_value, 1.0, 0.0, 1.0)
-        return Trial(kind, None, evidence, outcome)
-    fit = extend(screen, kind, score)
-    evidence = compare(screen.fit, fit, held_out)
-    return Trial(kind, fit, evidence, judge(evidence, tried * score.shapes))
 
 
 def _prune(
@@ -186,6 +121,6 @@ def _alternatives(
         if not score.seen or score.ratio < RIVAL_SHARE * worth:
             continue
         progress(f'trying {kind.name} as an alternative')
-        if delta_bic(extend(screen, kind, score), final) < INDISTINGUISHABLE:
+        if delta_bic(complete(approach(screen, kind, score)), final) < INDISTINGUISHABLE:
             found.append(kind.name)
     return tuple(found)
