@@ -1,9 +1,8 @@
 """The integrator: closed forms, order, symmetries, energy, and a reference that is not ours."""
 
-from functools import cache
-
 import numpy as np
 import pytest
+from accuracy import error, ours
 from hypothesis import example, given
 from hypothesis import strategies as st
 from motion import (
@@ -21,7 +20,7 @@ from motion import (
     table,
     traction_work,
 )
-from reference_plant import ReferencePlant
+from stick_slip import COULOMB_VISCOUS, GENERALIZED, rolling, stick_slip
 
 from diffbot_sim.physics import Friction, Model, Robot, simulate
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
@@ -35,8 +34,8 @@ from diffbot_sim.records import Array, Commands
 
 NOMINAL = Model()
 MASS, STATIC = NOMINAL.robot.mass, NOMINAL.friction.law().static
-# B is not 0, so that the wheels feel each other through the body.
-UNEQUAL = Model(Robot(inertia=0.25))
+# J = m b²/4, so each wheel tears strongly at the other: from order 3.5 at 20 ms it nears 4.
+COMPACT = Model(Robot(inertia=0.1))
 COULOMB, VISCOUS = NOMINAL.friction.law().coulomb, NOMINAL.friction.law().viscous
 
 
@@ -64,7 +63,7 @@ def test_coulomb_friction_stops_the_robot_after_m_v_squared_over_4_coulomb(speed
     friction = Friction('coulomb', mu_coulomb=mu)
     run = push(Model(friction=friction), 0.0, 0.0, 40.0, every=1.0, start=State(v=speed))
     distance = speed**2 * MASS / (2.0 * 2.0 * mu * friction.normal_force)
-    assert run.pose[-1, 0] == pytest.approx(distance, rel=1e-9)
+    assert run.pose[-1, 0] == pytest.approx(distance, rel=1e-7)
     assert not run.twist[-1].any()
 
 
@@ -132,37 +131,24 @@ def test_order_is_four_on_smooth_drives():
     np.testing.assert_allclose(np.log2(errors[:-1] / errors[1:]), 4.0, atol=0.1)
 
 
-@cache
-def reference() -> tuple[Commands, Array, Array, int]:
-    """Drive the reference by forces about F_s for 60 s; return drive, times, rows, events."""
-    law, robot = NOMINAL.friction.law(), UNEQUAL.robot
-    body = robot.mass, robot.inertia, robot.half_separation
-    plant = ReferencePlant(*body, law.static, law.coulomb, law.viscous, law.stribeck)
-    stamps, times = np.linspace(0.0, 60.0, 61), np.linspace(0.0, 60.0, 601)
-    force = STATIC * np.random.default_rng(1).uniform(-1.6, 1.6, (60, 2))
-    return Commands(stamps[:-1], force), times, *plant.drive(stamps, force, times)
-
-
-def stick_slip_error(step: float) -> float:
-    """Return the largest distance [m] from the reference."""
-    forces, times, rows, _ = reference()
-    run = simulate(UNEQUAL, forces, times, max_step=step)
-    return float(np.hypot(*(run.pose[:, :2] - rows[:, :2]).T).max())
-
-
-def test_reference_drive_sticks_and_slips_with_either_wheel():
-    _, _, rows, events = reference()
-    right, left = rows[:, 3:].T == 0.0
-    assert events > 30
+@pytest.mark.parametrize('model', [GENERALIZED, COULOMB_VISCOUS, COMPACT])
+def test_reference_drive_sticks_and_slips_with_either_wheel(model):
+    course = stick_slip(model)
+    right, left = course.rows[:, 3:].T == 0.0
+    assert course.events > 30
     assert min((right & ~left).sum(), (left & ~right).sum(), (right & left).sum()) > 20
 
 
-def test_stick_slip_at_10_ms_stays_within_10_micrometres_of_the_reference():
-    assert stick_slip_error(0.01) < 10e-6
+@pytest.mark.parametrize('model', [GENERALIZED, COULOMB_VISCOUS, COMPACT])
+def test_stick_slip_at_10_ms_stays_within_10_micrometres_of_the_reference(model):
+    assert error(ours, model, stick_slip(model), 0.01) < 10e-6
 
 
-def test_order_stays_four_through_stick_slip():
-    errors = np.array([stick_slip_error(step) for step in (0.02, 0.01, 0.005)])
+@pytest.mark.parametrize('model', [GENERALIZED, COULOMB_VISCOUS])
+@pytest.mark.parametrize('course', [stick_slip, rolling])
+def test_order_is_four_through_stick_slip_as_between_events(course, model):
+    steps = 0.02, 0.01, 0.005
+    errors = np.array([error(ours, model, course(model), step) for step in steps])
     np.testing.assert_allclose(np.log2(errors[:-1] / errors[1:]), 4.0, atol=0.4)
 
 
