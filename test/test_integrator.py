@@ -94,6 +94,19 @@ def test_breakaway_is_located_inside_the_step(share, tau):
     assert speed == pytest.approx(2.0 * surplus / MASS, rel=1e-6)
 
 
+@given(speed=st.floats(0.01, 3.0), mu=st.floats(0.01, 0.5), step=st.floats(1e-3, 2e-2))
+def test_coulomb_and_viscous_friction_stop_the_robot_at_one_place_whatever_the_step(
+    speed, mu, step
+):
+    """Distance m/(2 F_v) (v - F_k/F_v ln(1 + F_v v/F_k)): v dv/dx = -2 (F_k + F_v v)/m."""
+    friction = Friction('coulomb_viscous', mu_coulomb=mu)
+    run = push(Model(friction=friction), 0.0, 0.0, 5.0, start=State(v=speed), max_step=step)
+    coulomb = friction.law().coulomb
+    distance = speed - coulomb / VISCOUS * np.log1p(VISCOUS * speed / coulomb)
+    assert run.pose[-1, 0] == pytest.approx(MASS / (2.0 * VISCOUS) * distance, rel=1e-7)
+    assert not run.twist[-1].any()
+
+
 @given(v=numbers(-5.0, 5.0), omega=numbers(-5.0, 5.0), mu=st.floats(0.01, 1.0))
 def test_viscous_friction_lets_speed_fall_exponentially(v, omega, mu):
     model = Model(friction=viscous_only(mu))

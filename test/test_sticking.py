@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from motion import drive, drives, forces, frictions, models, numbers, push, robots, starts, table
 
@@ -39,6 +39,30 @@ def test_force_just_below_static_friction_moves_nothing_in_1000_seconds(share):
     run = push(NOMINAL, share * STATIC, share * STATIC, 1000.0, every=100.0)
     assert not run.pose.any()
     assert not run.wheel_speed.any()
+
+
+@settings(max_examples=10)
+@given(robot=robots(), sign=st.sampled_from([1.0, -1.0]))
+def test_wheel_held_just_below_static_friction_stays_1000_seconds_while_the_other_slides(
+    robot, sign
+):
+    """Where J < m b² the sliding wheel can only unload it."""
+    assume(coupling(robot) <= 0.0)
+    run = push(Model(robot), sign * 1.5 * STATIC, sign * 0.99 * STATIC, 1000.0, every=100.0)
+    assert (sign * run.wheel_speed[1:, 0] > 0.0).all()
+    assert not run.wheel_speed[:, 1].any()
+    assert not run.wheel_angle[:, 1].any()
+
+
+SHARES = numbers(-1.5, 1.5) | st.sampled_from([-1.001, -0.999, 0.999, 1.001])
+
+
+@given(model=models(), right=SHARES, left=SHARES, step=st.floats(1e-4, 1.0))
+def test_whether_a_robot_rests_depends_on_the_forces_and_not_on_the_step(model, right, left, step):
+    static, most = model.friction.law().static, max(abs(right), abs(left))
+    assume(static > 0.0 and abs(most - 1.0) > 1e-9)
+    run = push(model, right * static, left * static, 1.0, max_step=step)
+    assert run.wheel_speed.any() == (most > 1.0)
 
 
 @given(robot=robots(), friction=frictions(), right=numbers(-0.99, 0.99), left=numbers(-0.99, 0.99))
