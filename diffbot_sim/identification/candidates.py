@@ -2,7 +2,9 @@
 
 from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.fitting import Fit, fit_prediction, fit_with_noise_held
+from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.screening import Score, Screen
+from diffbot_sim.identification.start import restarted
 from diffbot_sim.physics.effects import Effect
 
 # Evaluations after which a start, or an effect, is compared with others.
@@ -27,6 +29,12 @@ def complete(near: Fit) -> Fit:
     """Fit to the end what was approached: first with the noise model held, then with all."""
     held = fit_with_noise_held(near.space, near.stretches, near.u, near.gains)
     return fit_prediction(near.space, near.stretches, held.u, held.gains, evaluations=8, rounds=2)
+
+
+def begun_anew(fit: Fit) -> Fit:
+    """Fit again from the first states that this model finds best: a poorer one misjudged them."""
+    stretches = restarted(fit.model, fit.stretches, MAX_STEP)
+    return fit_prediction(fit.space, stretches, fit.u, fit.gains, evaluations=8, rounds=2)
 
 
 def reduce(fit: Fit, name: str) -> Fit:

@@ -9,6 +9,8 @@ from diffbot_sim.records import Array
 LOWEST, HIGHEST, KEPT = 0.2, 60.0, 4
 # Points per line width of the spectrum; samples that a cycle needs at the usual speed.
 FINENESS, SAMPLES_PER_CYCLE = 3.0, 3.0
+# Beside a peak, this many line widths are its side lobes.
+SIDE_LOBES = 5.0
 # Memory for one block of orders, in numbers.
 BLOCK = 4_000_000
 
@@ -27,7 +29,7 @@ def wheel_orders(fit: Fit) -> tuple[float, ...]:
     orders = np.arange(LOWEST, highest, max(spacing, 1e-4))
     if len(orders) < 3:
         return ()
-    return _peaks(orders, _power(orders, angles, weights))
+    return _peaks(orders, _power(orders, angles, weights), SIDE_LOBES * FINENESS * spacing)
 
 
 def _by_wheel(fit: Fit) -> tuple[Array, Array]:
@@ -55,9 +57,12 @@ def _power(orders: Array, angles: Array, errors: Array) -> Array:
     return power
 
 
-def _peaks(orders: Array, power: Array) -> tuple[float, ...]:
-    """Return the orders of the highest local maxima, the highest first."""
+def _peaks(orders: Array, power: Array, apart: float) -> tuple[float, ...]:
+    """Return the orders of the highest local maxima, the highest first, side lobes left out."""
     inner = (power[1:-1] >= power[:-2]) & (power[1:-1] >= power[2:])
     places = 1 + np.flatnonzero(inner)
-    best = places[np.argsort(power[places])[::-1][:KEPT]]
-    return tuple(float(orders[place]) for place in best)
+    kept: list[float] = []
+    for place in places[np.argsort(power[places])[::-1]]:
+        if all(abs(orders[place] - other) > apart for other in kept):
+            kept.append(float(orders[place]))
+    return tuple(kept[:KEPT])

@@ -17,6 +17,8 @@ from diffbot_sim.records import Array
 AMOUNT = 0.05
 # Only what could not plausibly be chance is worth a full fit.
 PROMISING = 0.02
+# First order promises too much where parameters would move far: shares of a step that are tried.
+SHARES = (1.0, 0.5)
 # How many options are compared by their actual error, and how many of them may be followed.
 COMPARED, FOLLOWED = 6, 2
 
@@ -117,8 +119,19 @@ class Screen:
         turned = [i for i, spec in enumerate(kind.specs()) if spec.name not in kind.shape]
         slopes = np.stack([self._change(space, point, size + i) for i in turned], axis=-1)
         fall, amount, flat = self.explained(slopes)
-        point[[size + i for i in turned]] += amount
-        return _Option(fall, np.clip(point, *space.bounds()), _is_seen(flat, slopes))
+        change = np.zeros(len(point))
+        change[[size + i for i in turned]] = amount
+        change[:size] = self.adaptation(slopes, amount)[:size]
+        return _Option(fall, self._least(space, point, change), _is_seen(flat, slopes))
+
+    def _least(self, space: Space, point: Array, change: Array) -> Array:
+        """Return the share of a change, with or without what it does to the others, that fits."""
+        alone = np.where(np.arange(len(point)) < len(self.fit.u), 0.0, change)
+        bounds = space.bounds()
+        options = [
+            np.clip(point + share * by, *bounds) for share in SHARES for by in (change, alone)
+        ]
+        return min(options, key=lambda option: self._loss(space, option))
 
     def _as_it_stands(self, space: Space, start: Array) -> '_Option':
         """Return what values that are far from neutral explain."""
@@ -136,13 +149,14 @@ class Screen:
         return np.asarray((self._errors_at(space, moved) - self.fit.whitened) / AMOUNT)
 
     def _best(self, space: Space, options: Sequence['_Option']) -> tuple[Array, ...]:
-        """Return the points with the lowest actual errors, of those that promise most."""
-        first = sorted(options, key=lambda option: -option.fall)[:COMPARED]
-        losses = [
-            float(np.clip(self._errors_at(space, option.point) ** 2, 0, 9).sum())
-            for option in first
-        ]
-        return tuple(first[index].point for index in np.argsort(losses)[:FOLLOWED])
+        """Return the point that promises most, and of the next ones that with the least error."""
+        first, *others = sorted(options, key=lambda option: -option.fall)[:COMPARED]
+        others.sort(key=lambda option: self._loss(space, option.point))
+        return tuple(option.point for option in (first, *others[: FOLLOWED - 1]))
+
+    def _loss(self, space: Space, point: Array) -> float:
+        """Return the squared error at a point, no sample counting beyond three deviations."""
+        return float(np.clip(self._errors_at(space, point) ** 2, 0.0, 9.0).sum())
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from diffbot_sim.identification.candidates import approach, complete, reduce
+from diffbot_sim.identification.candidates import approach, begun_anew, complete, reduce
 from diffbot_sim.identification.evidence import Evidence, compare, delta_bic
 from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.screening import Screen
@@ -65,7 +65,7 @@ def select(
             break
         best = max(entering, key=lambda trial: trial.evidence.delta_bic)
         progress(f'{best.kind.name} enters')
-        current = best.fit or current
+        current = current if best.fit is None else begun_anew(best.fit)
         path.append(current)
     final, without, support = _prune(path, len(kinds), held_out, progress)
     chosen = set(without)

@@ -14,12 +14,14 @@ from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array
 
 WINDOW = 1.0
+# A robot that may well have been at rest was: chance alone lets two speeds explain so much.
+REST = 9.0
 
 
 def start_of(model: Model, stretch: Stretch, max_step: float) -> State:
     """Return the state from which a free-running simulation of a stretch begins.
 
-    A robot that rests starts at rest exactly. Otherwise one noisy sample would turn into a
+    A robot that may rest starts at rest exactly. Otherwise one noisy sample would turn into a
     heading error that lasts, so v and ω are fitted to the first WINDOW seconds.
     """
     first = stretch.start
@@ -36,8 +38,12 @@ def start_of(model: Model, stretch: Stretch, max_step: float) -> State:
         return np.asarray(((twist - run.twist) / noise).ravel())
 
     guess = np.array([first.v, first.omega])
-    best = least_squares(errors, guess, loss='huber', f_scale=3.0, diff_step=1e-5, max_nfev=10).x
-    return replace(first, v=float(best[0]), omega=float(best[1]))
+    best = least_squares(errors, guess, loss='huber', f_scale=3.0, diff_step=1e-5, max_nfev=10)
+    at_rest = np.minimum(np.abs(errors(np.zeros(2))), 3.0)
+    moving = np.minimum(np.abs(errors(best.x)), 3.0)
+    if np.sum(at_rest**2) < np.sum(moving**2) + REST:
+        return replace(first, v=0.0, omega=0.0)
+    return replace(first, v=float(best.x[0]), omega=float(best.x[1]))
 
 
 def restarted(model: Model, stretches: Sequence[Stretch], max_step: float) -> tuple[Stretch, ...]:

@@ -16,6 +16,8 @@ FITTED_SHARE = 0.7
 # What a start is estimated from, and what is left out of fits after it [s].
 START_WINDOW, SETTLING = 0.3, 0.5
 FEWEST_SAMPLES = 50
+# Samples that tell whether a stretch begins at rest.
+FEW = 5
 
 
 @dataclass(frozen=True)
@@ -91,6 +93,13 @@ def _stretch(run: Run, odometry: Odometry, begin: float, end: float) -> Stretch:
     return Stretch(run, time, twist, np.ascontiguousarray(heading), pose, start, used)
 
 
+def _intercept(time: Array, twist: Array) -> tuple[Array, float]:
+    """Return a line's values at the first stamp, and their spread for noise of unit size."""
+    design = np.column_stack([np.ones(len(time)), time - time[0]])
+    inverse = np.linalg.pinv(design)
+    return inverse[0] @ twist, float(np.linalg.norm(inverse[0]))
+
+
 def _integral(time: Array, rate: Array) -> Array:
     steps = np.diff(time) * 0.5 * (rate[1:] + rate[:-1])
     return np.concatenate([[0.0], np.cumsum(steps)])
@@ -98,12 +107,11 @@ def _integral(time: Array, rate: Array) -> Array:
 
 def _start(time: Array, twist: Array, pose: Array | None, heading: float) -> State:
     """Estimate the first state: a line through the first samples; rest where they allow it."""
-    count = max(5, int(np.searchsorted(time, time[0] + START_WINDOW)))
-    count = min(count, len(time))
-    design = np.column_stack([np.ones(count), time[:count] - time[0]])
-    line, *_ = np.linalg.lstsq(design, twist[:count], rcond=None)
-    noise = np.std(np.diff(twist, n=2, axis=0), axis=0) / np.sqrt(6.0)
-    resting = np.all(np.abs(twist[:count].mean(axis=0)) < 3.0 * noise / np.sqrt(count) + 1e-9)
-    v, omega = (0.0, 0.0) if resting else (float(line[0, 0]), float(line[0, 1]))
+    count = min(max(FEW, int(np.searchsorted(time, time[0] + START_WINDOW))), len(time))
+    noise = np.std(np.diff(twist[:count], n=2, axis=0), axis=0) / np.sqrt(6.0)
+    # The very first samples tell whether it rests: a push may set it in motion at once.
+    at_first, spread = _intercept(time[:FEW], twist[:FEW])
+    resting = np.all(np.abs(at_first) < 3.0 * noise * spread + 1e-9)
+    v, omega = (0.0, 0.0) if resting else map(float, _intercept(time[:count], twist[:count])[0])
     x, y = (0.0, 0.0) if pose is None else (float(pose[0, 0]), float(pose[0, 1]))
     return State(x, y, heading, v, omega)
