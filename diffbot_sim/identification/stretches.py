@@ -7,10 +7,12 @@ import numpy as np
 
 from diffbot_sim.errors import DataError
 from diffbot_sim.physics.state import State
-from diffbot_sim.records import Array, Odometry, Run
+from diffbot_sim.records import Array, Commands, Odometry, Run
 
 # Faster odometry is averaged down to this rate [Hz]: noise falls, nothing of the motion is lost.
 HIGHEST_RATE = 100.0
+# Commands too [Hz]: each is a step of the integrator.
+HIGHEST_COMMAND_RATE = 200.0
 # Share of each run that is fitted when no run is given for validation.
 FITTED_SHARE = 0.7
 # What a start is estimated from, and what is left out of fits after it [s].
@@ -45,35 +47,48 @@ class Stretch:
 
 def whole(runs: Sequence[Run]) -> tuple[Stretch, ...]:
     """Return each run as one stretch."""
-    return tuple(_stretch(run, thin(run.odometry), 0.0, 1.0) for run in runs)
+    return tuple(_stretch(run, 0.0, 1.0) for run in map(thin, runs))
 
 
 def split(runs: Sequence[Run]) -> tuple[tuple[Stretch, ...], tuple[Stretch, ...]]:
     """Return the first part of each run, to be fitted, and the rest, held out."""
-    thinned = [(run, thin(run.odometry)) for run in runs]
-    fitted = tuple(_stretch(run, odometry, 0.0, FITTED_SHARE) for run, odometry in thinned)
-    held_out = tuple(_stretch(run, odometry, FITTED_SHARE, 1.0) for run, odometry in thinned)
+    thinned = [thin(run) for run in runs]
+    fitted = tuple(_stretch(run, 0.0, FITTED_SHARE) for run in thinned)
+    held_out = tuple(_stretch(run, FITTED_SHARE, 1.0) for run in thinned)
     return fitted, held_out
 
 
-def thin(odometry: Odometry) -> Odometry:
-    """Average odometry that is faster than HIGHEST_RATE over groups of samples."""
-    rate = 1.0 / float(np.median(np.diff(odometry.time)))
-    group = int(rate / HIGHEST_RATE + 0.5)
-    if group < 2:
-        return odometry
-    count = len(odometry.time) // group
+def thin(run: Run) -> Run:
+    """Average odometry and commands that are faster than their highest rates.
 
-    def average(values: Array) -> Array:
-        tail = values.shape[1:]
-        return np.asarray(values[: count * group].reshape(count, group, *tail).mean(axis=1))
+    An average of commands is held from its first stamp on, so it gives the same impulse.
+    """
+    given, seen = run.commands, run.odometry
+    many, group = _surplus(given.time, HIGHEST_COMMAND_RATE), _surplus(seen.time, HIGHEST_RATE)
+    if many > 1:
+        firsts = given.time[: len(given.time) // many * many : many]
+        run = replace(run, commands=Commands(firsts, _averaged(given.force, many)))
+    if group > 1:
+        pose = None if seen.pose is None else _averaged(seen.pose, group)
+        time, twist = _averaged(seen.time, group), _averaged(seen.twist, group)
+        run = replace(run, odometry=Odometry(time, twist, pose))
+    return run
 
-    pose = None if odometry.pose is None else average(odometry.pose)
-    return Odometry(average(odometry.time), average(odometry.twist), pose)
+
+def _surplus(time: Array, highest: float) -> int:
+    """Return how many samples become one at most at the highest rate [Hz]."""
+    interval = float(np.median(np.diff(time))) if len(time) > 1 else 1.0
+    return int(1.0 / (interval * highest) + 0.5) if interval > 0.0 else 1
 
 
-def _stretch(run: Run, odometry: Odometry, begin: float, end: float) -> Stretch:
-    count = len(odometry.time)
+def _averaged(values: Array, group: int) -> Array:
+    count = len(values) // group
+    whole = values[: count * group]
+    return np.asarray(whole.reshape(count, group, *values.shape[1:]).mean(axis=1))
+
+
+def _stretch(run: Run, begin: float, end: float) -> Stretch:
+    odometry, count = run.odometry, len(run.odometry.time)
     part = slice(int(begin * count), int(end * count))
     time, twist = odometry.time[part], odometry.twist[part]
     if len(time) < FEWEST_SAMPLES:
