@@ -10,11 +10,14 @@ from diffbot_sim.identification.result import (
     UNEXPLAINED,
     Candidate,
     Comparison,
+    Difference,
     ErrorNorm,
     Errors,
     Estimate,
     FoundEffect,
+    Horizon,
     Identification,
+    RunCheck,
     Structure,
 )
 from diffbot_sim.physics.effects import Effect, laws, library
@@ -45,6 +48,7 @@ def found(name: str = 'quadratic_drag', with_pose: bool = True) -> Identificatio
         candidates=candidates(name),
         identified=Model().with_effect(_guess(library()[name])),
         comparisons=(comparison(0.03, with_pose), comparison(0.02, with_pose, 'second drive')),
+        runs=(check('first drive'), check('second drive')),
         advice=('turn on the spot: yaw friction leaves no trace in this drive',),
     )
 
@@ -65,6 +69,7 @@ def nothing_missing(with_pose: bool = True) -> Identification:
         recalibrated=recalibrated,
         identified=recalibrated,
         comparisons=(comparison(0.0, with_pose),),
+        horizons=horizons(),
     )
 
 
@@ -85,6 +90,29 @@ def errors(recalibrated: float) -> Errors:
     return Errors(
         'held_out', ErrorNorm(0.052, 0.021), ErrorNorm(recalibrated, 0.0081),
         ErrorNorm(0.0041, 0.0081), floor,
+    )  # fmt: skip
+
+
+def horizons() -> tuple[Horizon, ...]:
+    """Return errors that grow with the horizon."""
+    ahead = (('one step', 0.02), ('1 s', 1.0), ('5 s', 5.0), ('free-running', None))
+    growth = (1.0, 1.1, 1.4, 1.5)
+    return tuple(
+        Horizon(
+            name, seconds, 140, ErrorNorm(0.005 * k**5, 0.01 * k**2),
+            ErrorNorm(0.0045 * k**4, 0.009 * k), ErrorNorm(0.0041 * k, 0.0081 * k),
+        )
+        for (name, seconds), k in zip(ahead, growth, strict=True)
+    )  # fmt: skip
+
+
+def check(name: str, mass: float | None = None) -> RunCheck:
+    """Return a run that agrees, or one that has another mass than the others."""
+    here = Estimate(mass or 10.0, (mass or 10.0) - 0.1, (mass or 10.0) + 0.1, 'kg')
+    difference = Difference('mass', here, Estimate(10.01, 9.96, 10.06, 'kg'))
+    return RunCheck(
+        name, ErrorNorm(0.0042 if mass is None else 0.098, 0.0083), ErrorNorm(*NOISE),
+        () if mass is None else (difference,),
     )  # fmt: skip
 
 

@@ -35,6 +35,16 @@ def summary(result: Identification) -> str:
     return out.getvalue()
 
 
+def one_odd_run() -> Identification:
+    """Return an answer in which the second of three runs carried a load."""
+    runs = (
+        by_hand.check('first drive'),
+        by_hand.check('second drive', 12.9),
+        by_hand.check('third drive'),
+    )
+    return replace(by_hand.found(), runs=runs)
+
+
 @every_verdict
 def test_json_has_the_keys_that_other_programs_rely_on(answer: Answer) -> None:
     report = json.loads(json_text(answer()))
@@ -49,9 +59,73 @@ def test_json_has_the_keys_that_other_programs_rely_on(answer: Answer) -> None:
 def test_json_tells_a_found_effect_with_interval_evidence_and_alternatives() -> None:
     effect = json.loads(json_text(by_hand.found()))['effects'][0]
     assert effect['name'] == 'quadratic_drag'
-    assert set(effect['parameters']['coefficient']) == {'value', 'ci95', 'unit'}
+    assert {'value', 'ci95', 'unit'} <= set(effect['parameters']['coefficient'])
     assert effect['evidence']['delta_bic'] == 812.4
     assert effect['alternatives'] == ['slope']
+
+
+def test_json_tells_errors_by_horizon() -> None:
+    horizons = json.loads(json_text(by_hand.found()))['horizons']
+    assert [item['name'] for item in horizons] == ['one step', '1 s', '5 s', 'free-running']
+    assert [item['seconds'] for item in horizons] == [0.02, 1.0, 5.0, None]
+    assert set(horizons[0]['declared']) == {'v_rmse', 'omega_rmse'}
+
+
+def test_json_tells_which_run_disagrees_and_why() -> None:
+    first, second = json.loads(json_text(one_odd_run()))['runs'][:2]
+    assert (first['name'], first['agrees'], first['why']) == ('first drive', True, '')
+    assert (second['name'], second['agrees'], second['v_rmse']) == ('second drive', False, 0.098)
+    assert second['why'] == 'mass 12.900 ± 0.100 kg, elsewhere 10.010 ± 0.050 kg'
+    assert second['differences'][0]['here']['value'] == 12.9
+    assert set(second['noise_floor']) == set(second['declared']) == {'v_rmse', 'omega_rmse'}
+
+
+def test_one_run_has_nothing_to_agree_with() -> None:
+    (run,) = json.loads(json_text(by_hand.nothing_missing()))['runs']
+    assert (run['agrees'], run['why'], run['v_rmse']) == (None, None, None)
+    assert 'Do the runs agree' not in page_text(by_hand.nothing_missing())
+
+
+@pytest.mark.parametrize('told', [page_text, summary])
+def test_run_that_disagrees_is_named_at_once(told: Callable[[Identification], str]) -> None:
+    text = ' '.join(told(one_odd_run()).split())
+    said = 'second drive disagrees with the other runs: mass 12.900 ± 0.100 kg'
+    table = 'Error before and after' if '<' in text else 'Free-running error'
+    assert text.index(said) < text.index(table)
+
+
+def test_of_two_runs_that_disagree_neither_is_called_odd() -> None:
+    runs = by_hand.check('a', 12.9), by_hand.check('b', 10.0)
+    (said,) = sentences.disagreements(runs)
+    assert said.startswith('a and b disagree. a: mass 12.90')
+
+
+@pytest.mark.parametrize('told', [page_text, summary])
+def test_errors_are_told_by_horizon(told: Callable[[Identification], str]) -> None:
+    text = told(by_hand.found())
+    assert all(name in text for name in ('one step', '1 s', '5 s'))
+
+
+def test_parameter_at_its_bound_is_marked() -> None:
+    stopped = Estimate(0.0, -0.1, 0.1, 'N', at_bound=True)
+    result = replace(by_hand.found(), nominal={'friction.mu_viscous': stopped})
+    assert '(at bound)' in page_text(result)
+    estimates = json.loads(json_text(result))['nominal']['parameters']
+    assert estimates['friction.mu_viscous']['at_bound'] is True
+
+
+@pytest.mark.parametrize('told', [json_text, page_text, summary])
+def test_pure_number_has_no_minus_for_a_unit(told: Callable[[Identification], str]) -> None:
+    told_text = re.sub(r'<script>.*?</script>', '', told(by_hand.found('slope')), flags=re.DOTALL)
+    assert not re.search(r"""["'>\d]\s*-\s*["'<,]|\[-\]|\d -$""", told_text, re.MULTILINE)
+
+
+@pytest.mark.parametrize(
+    'words', ['without slipping', 'Wheel separation', 'tilted evenly', 'start-up', 'three tests']
+)
+def test_page_says_what_was_assumed(words: str) -> None:
+    said = page_text(by_hand.found())
+    assert words in said[said.index('What was assumed') :]
 
 
 def test_json_tells_numbers_in_full_precision() -> None:

@@ -47,7 +47,7 @@ def errors_of(comparisons: Sequence[Comparison], split: str) -> Errors:
     def pooled(name: str) -> ErrorNorm:
         return norm(np.concatenate([c.twist - getattr(c, name).twist for c in comparisons]))
 
-    floor = np.concatenate([_noise(c.twist - c.with_effects.twist) for c in comparisons])
+    floor = np.concatenate([noise(c.twist - c.with_effects.twist) for c in comparisons])
     return Errors(
         split, pooled('declared'), pooled('recalibrated'), pooled('with_effects'), norm(floor)
     )
@@ -59,7 +59,7 @@ def norm(errors: Array) -> ErrorNorm:
     return ErrorNorm(float(v), float(omega))
 
 
-def _noise(errors: Array) -> Array:
+def noise(errors: Array) -> Array:
     """Return what white measurement noise leaves in the second differences, scaled back.
 
     Model errors are smooth from sample to sample and vanish there. The few largest, where a stop

@@ -1,14 +1,16 @@
 """From runs and a declared model to what the model lacks."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 from diffbot_sim.errors import DataError
+from diffbot_sim.identification.agreement import agreement
 from diffbot_sim.identification.calibration import calibrate, simulation_error
 from diffbot_sim.identification.comparison import compare_models, errors_of
 from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.empirical import table_of, with_term
 from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction, fit_simulation
+from diffbot_sim.identification.horizons import horizons
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
@@ -64,13 +66,18 @@ def identify(
     final = _for_simulation(selection, recalibrated)
     closed = unexplained and with_term(final, unexplained, held_out)
     final = closed or final
-    comparisons = compare_models(declared, recalibrated.model, final, held_out)
+    # Whatever gave the parameters, the noise model that the disturbances call for watches them.
+    watched = replace(final, gains=selection.final.gains)
+    models = (declared, recalibrated.model, final.model)
+    comparisons = compare_models(declared, recalibrated.model, watched, held_out)
+    errors = errors_of(comparisons, 'validate' if validate else 'held_out')
+    progress('holding the runs against each other')
     return Identification(
         verdict=_verdict(selection, unexplained),
         effects=_effects(selection, final),
         unexplained=unexplained,
         nominal=estimates(recalibrated),
-        errors=errors_of(comparisons, 'validate' if validate else 'held_out'),
+        errors=errors,
         candidates=tuple(_candidate(trial) for trial in selection.trials),
         declared=declared,
         recalibrated=recalibrated.model,
@@ -78,6 +85,8 @@ def identify(
         comparisons=comparisons,
         advice=_advice(selection),
         empirical=table_of(unexplained) if closed and unexplained else None,
+        horizons=horizons(models, watched, held_out, errors),
+        runs=agreement(selection.final, [*runs, *validate]),
     )
 
 

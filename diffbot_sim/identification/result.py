@@ -13,12 +13,17 @@ UNEXPLAINED = 'unexplained'
 
 @dataclass(frozen=True)
 class Estimate:
-    """A parameter with its 95 % interval [low, high]."""
+    """A parameter with its 95 % interval [low, high].
+
+    at_bound: whether the fit was stopped by the lowest or highest valid value; the interval then
+    means little.
+    """
 
     value: float
     low: float
     high: float
     unit: str
+    at_bound: bool = False
 
 
 @dataclass(frozen=True)
@@ -96,6 +101,51 @@ class Errors:
 
 
 @dataclass(frozen=True)
+class Horizon:
+    """Errors of predictions so many seconds ahead, on held-out data, each where it ends.
+
+    name: 'one step', '1 s', '5 s' or 'free-running'; seconds: None for free-running, which runs
+    on to the end and counts all the way; count: how many predictions were pooled.
+    """
+
+    name: str
+    seconds: float | None
+    count: int
+    declared: ErrorNorm
+    recalibrated: ErrorNorm
+    with_effects: ErrorNorm
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A parameter of which a run says something else than the other runs."""
+
+    name: str
+    here: Estimate
+    others: Estimate
+
+
+@dataclass(frozen=True)
+class RunCheck:
+    """One of several runs, held out in turn.
+
+    error: free-running over the whole run, with parameters learned from the other runs alone;
+    noise_floor: what white noise leaves of it. differences: beyond chance, the surest first; none
+    where the run agrees.
+    """
+
+    name: str
+    error: ErrorNorm
+    noise_floor: ErrorNorm
+    differences: tuple[Difference, ...] = ()
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the other runs could be of the same robot in the same condition."""
+        return not self.differences
+
+
+@dataclass(frozen=True)
 class Comparison:
     """One held-out stretch: what was measured and what each model predicts, free-running.
 
@@ -134,3 +184,5 @@ class Identification:
     comparisons: tuple[Comparison, ...]
     advice: tuple[str, ...] = ()
     empirical: EmpiricalForce | None = None
+    horizons: tuple[Horizon, ...] = ()
+    runs: tuple[RunCheck, ...] = ()

@@ -3,31 +3,51 @@
 import numpy as np
 from scipy import stats
 
+from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.evidence import BLOCKS, covariance
 from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.result import Estimate
+from diffbot_sim.records import Array
 
 LEVEL = 0.95
 STEP = 1e-4
+# Coordinates are of order one; fits end a little inside their bounds.
+NEAR_BOUND = 1e-3
 
 
 def estimates(fit: Fit) -> dict[str, Estimate]:
     """Return every fitted parameter by its name, with its 95 % interval."""
-    values = fit.space.values(fit.u)
+    return estimates_at(fit.space, fit.u, covariance(fit))
+
+
+def estimates_at(space: Space, u: Array, spread: Array) -> dict[str, Estimate]:
+    """Return the parameters at a point; spread: covariance of u and whatever follows it."""
+    values = space.values(u)
     names = list(values)
-    size = len(fit.u)
+    size = len(u)
     derivative = np.empty((len(names), size))
     for index in range(size):
-        moved = fit.u.copy()
+        moved = u.copy()
         moved[index] += STEP
-        shifted = fit.space.values(moved)
+        shifted = space.values(moved)
         derivative[:, index] = [(shifted[name] - values[name]) / STEP for name in names]
-    spread = derivative @ covariance(fit)[:size, :size] @ derivative.T
-    reach = stats.t.ppf(0.5 + LEVEL / 2, BLOCKS - 1) * np.sqrt(np.maximum(np.diag(spread), 0.0))
-    units = {coordinate.name: coordinate.unit for coordinate in fit.space.coordinates}
+    own = derivative @ spread[:size, :size] @ derivative.T
+    reach = stats.t.ppf(0.5 + LEVEL / 2, BLOCKS - 1) * np.sqrt(np.maximum(np.diag(own), 0.0))
+    units = {coordinate.name: coordinate.unit for coordinate in space.coordinates}
+    stopped = dict(zip(names, at_bound(space, u), strict=True))
     return {
         name: Estimate(
-            values[name], values[name] - float(half), values[name] + float(half), units[name]
+            value=values[name],
+            low=values[name] - float(half),
+            high=values[name] + float(half),
+            unit=units[name],
+            at_bound=bool(stopped[name]),
         )
         for name, half in zip(names, reach, strict=True)
     }
+
+
+def at_bound(space: Space, u: Array) -> Array:
+    """Return which coordinates lie at their lowest or highest valid value."""
+    low, high = space.bounds()
+    return np.asarray(np.minimum(u - low, high - u) < NEAR_BOUND)

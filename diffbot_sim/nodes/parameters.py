@@ -195,8 +195,9 @@ def converted(spec: Spec, value: Any) -> Any:
 
 def descriptor(spec: Spec, read_only: bool) -> ParameterDescriptor:
     """Describe a parameter to `ros2 param describe` and to rqt."""
+    unit = spec.unit.removeprefix('-')
     about = ParameterDescriptor(
-        description=f'{spec.meaning} [{spec.unit}]' if spec.unit else spec.meaning,
+        description=f'{spec.meaning} [{unit}]' if unit else spec.meaning,
         additional_constraints=spec.valid if spec.choices else '',
         read_only=read_only,
     )

@@ -4,7 +4,12 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from diffbot_sim.identification.result import Comparison, ErrorNorm, Errors, Identification
+from diffbot_sim.identification.result import (
+    Comparison,
+    ErrorNorm,
+    Errors,
+    Identification,
+)
 from diffbot_sim.records import Trajectory
 
 LABELS = {
@@ -43,6 +48,25 @@ def _row(key: str, norm: ErrorNorm, floor: ErrorNorm) -> ErrorRow:
 
 def _ratio(error: float, floor: float) -> float:
     return error / floor if floor > 0.0 else float('nan')
+
+
+@dataclass(frozen=True)
+class HorizonRow:
+    """One row of the table of horizons: each model's error in v [mm/s] and in ω [mrad/s]."""
+
+    name: str
+    v: list[float]
+    omega: list[float]
+
+
+def horizon_rows(result: Identification) -> list[HorizonRow]:
+    """List the errors by how far ahead was predicted, for the models shown."""
+    rows = []
+    for horizon in result.horizons:
+        norms: list[ErrorNorm] = [getattr(horizon, model) for model in models_shown(result)]
+        v, omega = [1e3 * norm.v_rmse for norm in norms], [1e3 * norm.omega_rmse for norm in norms]
+        rows.append(HorizonRow(horizon.name, v, omega))
+    return rows
 
 
 def models_shown(result: Identification) -> tuple[str, ...]:

@@ -7,8 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from diffbot_sim.identification.result import Estimate, FoundEffect, Identification
-from diffbot_sim.report.errors import run_errors
+from diffbot_sim.identification.result import (
+    Comparison,
+    ErrorNorm,
+    Estimate,
+    FoundEffect,
+    Identification,
+    RunCheck,
+)
+from diffbot_sim.report.errors import MODELS, run_errors
+from diffbot_sim.report.numerals import unit_text
+from diffbot_sim.report.sentences import why
 
 
 def json_text(result: Identification) -> str:
@@ -27,7 +36,8 @@ def as_dict(result: Identification) -> dict[str, Any]:
         'error': asdict(result.errors),
         'candidates': [asdict(candidate) for candidate in result.candidates],
         'advice': list(result.advice),
-        'runs': [{'name': run.run, **run_errors(run)} for run in result.comparisons],
+        'horizons': [asdict(horizon) for horizon in result.horizons],
+        'runs': _runs(result),
     }
 
 
@@ -42,10 +52,49 @@ def _effect(effect: FoundEffect) -> dict[str, Any]:
 
 
 def _estimates(estimates: dict[str, Estimate]) -> dict[str, Any]:
+    return {name: _estimate(it) for name, it in estimates.items()}
+
+
+def _estimate(it: Estimate) -> dict[str, Any]:
+    unit = unit_text(it.unit).strip()
     return {
-        name: {'value': it.value, 'ci95': [it.low, it.high], 'unit': it.unit}
-        for name, it in estimates.items()
+        'value': it.value,
+        'ci95': [it.low, it.high],
+        'unit': unit,
+        'at_bound': it.at_bound,
     }
+
+
+def _runs(result: Identification) -> list[dict[str, Any]]:
+    """List every run: how it agrees with the others, and the models' errors where held out."""
+    held_out = {run.run: run for run in result.comparisons}
+    checks = {run.name: run for run in result.runs}
+    names = dict.fromkeys([*checks, *held_out])
+    return [
+        {'name': name, **_agreement(checks.get(name)), **_held_out(held_out.get(name))}
+        for name in names
+    ]
+
+
+def _agreement(run: RunCheck | None) -> dict[str, Any]:
+    """Tell how one of several runs agrees; null where there is only one."""
+    nothing = ErrorNorm(float('nan'), float('nan'))
+    return {
+        'agrees': None if run is None else run.agrees,
+        'why': None if run is None else why(run),
+        **asdict(nothing if run is None else run.error),
+        'noise_floor': asdict(nothing if run is None else run.noise_floor),
+        'differences': []
+        if run is None
+        else [
+            {'parameter': it.name, 'here': _estimate(it.here), 'others': _estimate(it.others)}
+            for it in run.differences
+        ],
+    }
+
+
+def _held_out(run: Comparison | None) -> dict[str, Any]:
+    return dict.fromkeys(MODELS) if run is None else run_errors(run)
 
 
 def _plain(value: Any) -> Any:

@@ -15,6 +15,11 @@ def significant(value: float, digits: int = 3) -> str:
 
 
 def estimate_text(estimate: Estimate) -> str:
+    """Write value ± half interval and unit, and whether the fit was stopped by a bound."""
+    return _with_interval(estimate) + (' (at bound)' if estimate.at_bound else '')
+
+
+def _with_interval(estimate: Estimate) -> str:
     """Write value ± half interval and unit, or [low, high] where the interval is lopsided."""
     unit = unit_text(estimate.unit)
     below, above = estimate.value - estimate.low, estimate.high - estimate.value

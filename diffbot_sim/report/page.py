@@ -10,8 +10,16 @@ from plotly.offline import get_plotlyjs
 
 from diffbot_sim.identification.result import Comparison, Identification
 from diffbot_sim.report import figures, rows, sentences
+from diffbot_sim.report.assumptions import assumptions
 from diffbot_sim.report.drawing import COLOURS, Figure
-from diffbot_sim.report.errors import LABELS, MODELS, error_rows, run_errors
+from diffbot_sim.report.errors import (
+    LABELS,
+    MODELS,
+    error_rows,
+    horizon_rows,
+    models_shown,
+    run_errors,
+)
 from diffbot_sim.report.numerals import significant
 
 
@@ -35,6 +43,10 @@ def page_text(result: Identification) -> str:
             verdict=sentences.verdict(result),
             split=sentences.split(result.errors),
             errors=error_rows(result.errors),
+            horizons=horizon_rows(result),
+            models=[(key, LABELS[key]) for key in models_shown(result)],
+            checks=[rows.run_row(run) for run in result.runs],
+            disagreements=sentences.disagreements(result.runs),
             error_figures=figures.error_figures(result.errors),
             effects=[rows.effect_row(effect) for effect in result.effects],
             structure=result.unexplained and figures.structure_figure(result.unexplained),
@@ -46,7 +58,7 @@ def page_text(result: Identification) -> str:
             kept=rows.kept_rows(result),
             candidates=[rows.candidate_row(candidate) for candidate in result.candidates],
             ranking=figures.candidates_figure(result),
-            assumptions=sentences.assumptions(result),
+            assumptions=assumptions(result),
             colours=COLOURS,
             labels=[LABELS[key] for key in MODELS],
             plotly=Markup(get_plotlyjs()),

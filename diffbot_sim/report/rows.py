@@ -3,12 +3,18 @@
 from dataclasses import dataclass
 from typing import Any
 
-from diffbot_sim.identification.result import Candidate, Estimate, FoundEffect, Identification
+from diffbot_sim.identification.result import (
+    Candidate,
+    Estimate,
+    FoundEffect,
+    Identification,
+    RunCheck,
+)
 from diffbot_sim.parameters import Spec, specs
 from diffbot_sim.physics.effects import library
 from diffbot_sim.physics.model import Model
 from diffbot_sim.report.numerals import estimate_text, significant, unit_text
-from diffbot_sim.report.sentences import alternatives, p_text
+from diffbot_sim.report.sentences import alternatives, p_text, why
 
 EVIDENCE = {
     'delta_bic': 'the BIC falls by',
@@ -50,6 +56,29 @@ class CandidateRow:
     p_block: str
     held_out_gain: str
     outcome: str
+
+
+@dataclass(frozen=True)
+class RunRow:
+    """How one run agrees with the others: errors and, in brackets, their ratio to the noise."""
+
+    name: str
+    agrees: bool
+    v: str
+    omega: str
+    why: str
+
+
+def run_row(run: RunCheck) -> RunRow:
+    """Put the agreement of one run into words; v in mm/s, ω in mrad/s."""
+    v, omega = (
+        f'{significant(1e3 * error)} ({significant(error / floor, 2) if floor else "–"})'
+        for error, floor in (
+            (run.error.v_rmse, run.noise_floor.v_rmse),
+            (run.error.omega_rmse, run.noise_floor.omega_rmse),
+        )
+    )
+    return RunRow(run.name, run.agrees, v, omega, why(run))
 
 
 def effect_row(effect: FoundEffect) -> EffectRow:

@@ -1,5 +1,6 @@
 """The words of the report: what was found, how sure it is, and in which units."""
 
+from collections.abc import Sequence
 from math import isfinite
 
 from diffbot_sim.identification.result import (
@@ -8,6 +9,7 @@ from diffbot_sim.identification.result import (
     Errors,
     FoundEffect,
     Identification,
+    RunCheck,
     Structure,
 )
 from diffbot_sim.report.numerals import estimate_text, significant
@@ -89,21 +91,20 @@ def split(errors: Errors) -> str:
     return SPLITS.get(errors.split, errors.split)
 
 
-def assumptions(result: Identification) -> list[str]:
-    """List what the answer takes for granted."""
-    return [
-        f'Errors are those of free-running simulation {split(result.errors)}: driven by the '
-        'recorded forces alone, never corrected on the way. Pose and rest are as measured at the '
-        'start; a robot in motion begins with the speeds that fit the first second best.',
-        'The noise floor is the error that a perfect model would still have: '
-        'measurement noise, taken as white.',
-        'Force disturbances are allowed to be correlated in time (an uneven floor), '
-        'so that they do not pass for an effect.',
-        'Recorded forces are held until the next one; time counts from the start of each run.',
-        'Wheels roll without slip, and all runs are of one robot in one condition.',
-        'Gravity is 9.80665 m/s².',
-        'Intervals are 95 % intervals, each for its parameter alone.',
-    ]
+def disagreements(runs: Sequence[RunCheck]) -> list[str]:
+    """Name the runs that disagree with the others; of two, nobody can say which is odd."""
+    odd = [run for run in runs if not run.agrees]
+    if len(runs) == 2 and odd:
+        return [f'{runs[0].name} and {runs[1].name} disagree. {runs[0].name}: {why(runs[0])}.']
+    return [f'{run.name} disagrees with the other runs: {why(run)}.' for run in odd]
+
+
+def why(run: RunCheck) -> str:
+    """Say in which parameters a run differs, the surest three; empty where it agrees."""
+    return '; '.join(
+        f'{it.name} {estimate_text(it.here)}, elsewhere {estimate_text(it.others)}'
+        for it in run.differences[:3]
+    )
 
 
 def p_text(p: float) -> str:

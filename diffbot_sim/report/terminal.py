@@ -7,7 +7,7 @@ from rich.text import Text
 
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.report import sentences
-from diffbot_sim.report.errors import error_rows
+from diffbot_sim.report.errors import LABELS, error_rows, horizon_rows, models_shown
 from diffbot_sim.report.numerals import significant
 from diffbot_sim.report.rows import candidate_row, effect_row
 
@@ -20,7 +20,11 @@ def print_summary(result: Identification, console: Console | None = None) -> Non
     console = console or Console(highlight=False)
     style = f'bold {COLOURS.get(result.verdict, "")}'
     console.print(Text(sentences.verdict(result), style=style), '')
+    for sentence in sentences.disagreements(result.runs):
+        console.print(Text(sentence, style='yellow'), '')
     console.print(_errors(result))
+    if result.horizons:
+        console.print(_horizons(result))
     if result.effects:
         console.print(_effects(result))
     for effect in result.effects:
@@ -38,6 +42,15 @@ def _errors(result: Identification) -> Table:
     for row in error_rows(result.errors):
         ratios = f'{significant(row.v_ratio)}, {significant(row.omega_ratio)}'
         table.add_row(row.label, significant(row.v), significant(row.omega), ratios)
+    return table
+
+
+def _horizons(result: Identification) -> Table:
+    models = [f'>{LABELS[model]}' for model in models_shown(result)]
+    table = _table('Error so far ahead: v [mm/s], ω [mrad/s]', 'ahead', *models)
+    for row in horizon_rows(result)[:-1]:  # the last, free-running, is in the table of errors
+        pairs = zip(row.v, row.omega, strict=True)
+        table.add_row(row.name, *(f'{significant(v)}, {significant(w)}' for v, w in pairs))
     return table
 
 

@@ -1,0 +1,65 @@
+"""What the answer takes for granted: a reader who knows better knows what not to believe."""
+
+import numpy as np
+
+from diffbot_sim.identification import agreement, selection, stretches
+from diffbot_sim.identification.result import Identification
+from diffbot_sim.report.numerals import significant
+from diffbot_sim.report.sentences import split
+
+
+def assumptions(result: Identification) -> list[str]:
+    """List what was assumed about the robot, the recording and the decisions."""
+    return [*_robot(result), *_recording(result), *_errors(result), *_decisions()]
+
+
+def _robot(result: Identification) -> list[str]:
+    robot = result.declared.robot
+    return [
+        'Wheels roll without slipping, and all runs are of one robot in one condition.',
+        f'Wheel separation {robot.wheel_separation:g} m and radius {robot.wheel_radius:g} m are '
+        'as declared; odometry was made with the same.',
+        'The floor is flat, or tilted evenly. What else it does (bumps, joints) is a force that '
+        'may be correlated in time, so that it does not pass for an effect.',
+    ]
+
+
+def _recording(result: Identification) -> list[str]:
+    rates = [1.0 / float(np.median(np.diff(run.time))) for run in result.comparisons]
+    at = f' It was used at {_listed(rates)} Hz.' if rates else ''
+    return [
+        'The recorded forces are those that were asked of the actuators, without error, each '
+        'held until the next one.',
+        'Forces and odometry are stamped by one clock, when they were measured; time counts from '
+        'the start of each run.',
+        f'Odometry faster than {stretches.HIGHEST_RATE:g} Hz is averaged down.{at}',
+        f'Left out as start-up: the first {stretches.SETTLING:g} s of what was fitted.',
+    ]
+
+
+def _errors(result: Identification) -> list[str]:
+    return [
+        f'Errors are those of free-running simulation {split(result.errors)}: driven by the '
+        'recorded forces alone, never corrected on the way. Pose and rest are as measured at the '
+        'start; a robot in motion begins with the speeds that fit the first second best.',
+        'The noise floor is the error that a perfect model would still have: '
+        'measurement noise, taken as white.',
+        'Intervals are 95 % intervals, each for its parameter alone; at a bound they mean little.',
+        'Gravity is 9.80665 m/s².',
+    ]
+
+
+def _decisions() -> list[str]:
+    return [
+        'An effect enters when three tests agree: likelihood ratio '
+        f'(p < {selection.LIKELIHOOD_LEVEL:g}, corrected for the number of effects tried), the '
+        f'same against serial correlation (p < {selection.BLOCK_LEVEL:g}) and a gain on held-out '
+        f'data (p < {selection.HELD_OUT_LEVEL:g}).',
+        'Effects were chosen with all fitted runs. A run disagrees when a parameter differs from '
+        f'that of the others (p < {agreement.LEVEL:g}, corrected for runs and parameters) by more '
+        f'than {100 * agreement.IMMATERIAL:g} %.',
+    ]
+
+
+def _listed(rates: list[float]) -> str:
+    return ', '.join(sorted({significant(rate, 2) for rate in rates}, key=float))
