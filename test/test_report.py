@@ -25,6 +25,7 @@ from diffbot_sim.report.page import page_text
 
 Answer = Callable[[], Identification]
 ANSWERS = [by_hand.nothing_missing, by_hand.found, by_hand.unexplained]
+needs_chromium = pytest.mark.skipif(shutil.which('chromium') is None, reason='needs chromium')
 every_verdict = pytest.mark.parametrize('answer', ANSWERS)
 
 
@@ -256,15 +257,33 @@ def test_report_replaces_an_older_one_and_leaves_no_scraps(tmp_path: Path) -> No
     assert json.loads((out / 'report.json').read_text())['verdict'] == 'nothing_missing'
 
 
-@pytest.mark.skipif(shutil.which('chromium') is None, reason='needs chromium')
+def browsed(page: Path) -> str:
+    """Return the page as it stands after a browser has run its scripts."""
+    quiet = ['--disable-background-networking', '--disable-component-update', '--disable-sync']
+    flags = ['--headless', '--no-sandbox', '--disable-gpu', '--hide-scrollbars', *quiet]
+    where = [f'--user-data-dir={page.parent}/profile', '--window-size=1200,9000']
+    what = ['--allow-file-access-from-files', '--virtual-time-budget=8000', '--dump-dom']
+    command = ['chromium', *flags, *where, *what, f'file://{page}']
+    return subprocess.run(command, capture_output=True, text=True, timeout=120, check=True).stdout
+
+
+@needs_chromium
+@pytest.mark.parametrize('width', [390, 1280])
+def test_page_is_no_wider_than_a_phone_or_a_screen(width: int, tmp_path: Path) -> None:
+    write_report(one_odd_run(), tmp_path)
+    frame = tmp_path / 'frame.html'
+    frame.write_text(
+        f'<iframe src="report.html" style="border: 0; width: {width}px; height: 8000px" '
+        'onload="setTimeout(() => '
+        '{document.title = contentDocument.documentElement.scrollWidth}, 4000)"></iframe>'
+    )
+    assert f'<title>{width}</title>' in browsed(frame)
+
+
+@needs_chromium
 def test_browser_draws_the_figures(tmp_path: Path) -> None:
     write_report(by_hand.unexplained(), tmp_path)
-    quiet = ['--disable-background-networking', '--disable-component-update', '--disable-sync']
-    flags = ['--headless', '--no-sandbox', '--disable-gpu', '--no-first-run', *quiet]
-    where = [f'--user-data-dir={tmp_path}/profile', '--window-size=1200,9000']
-    page = ['--virtual-time-budget=8000', '--dump-dom', f'file://{tmp_path}/report.html']
-    command = ['chromium', *flags, *where, *page]
-    dom = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True).stdout
+    dom = browsed(tmp_path / 'report.html')
     assert dom.count('class="plot js-plotly-plot"') == 17
     assert (
         dom.count('<script type="application/json">') == 3

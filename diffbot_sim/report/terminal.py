@@ -72,7 +72,7 @@ def _candidates(result: Identification) -> Table:
 
 def _table(title: str, *columns: str) -> Table:
     """Make a table; a column that starts with '>' is set to the right."""
-    table = Table(title=title, box=box.SIMPLE_HEAD, title_justify='left', title_style='bold')
+    table = Table(title=Text(title), box=box.SIMPLE_HEAD, title_justify='left', title_style='bold')
     for name in columns:
         text = Text(name.removeprefix('>'))  # as Text, since rich takes [mm/s] for a style
         if name.startswith('>'):
