@@ -111,11 +111,25 @@ def wald(fit: Fit, indices: Sequence[int]) -> float:
     """Return the block-robust p-value of some coordinates being at their prior (neutral)."""
     chosen = list(indices)
     departure = fit.u[chosen] - fit.space.prior()[chosen]
-    return wald_p(departure, covariance(fit)[np.ix_(chosen, chosen)])
+    jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])[:, chosen]
+    spread = covariance(fit)[np.ix_(chosen, chosen)]
+    return wald_p(departure, spread, informative_blocks(jacobian))
 
 
-def wald_p(departure: Array, spread: Array) -> float:
-    """Return the p-value of a departure whose covariance comes from BLOCKS blocks."""
+def informative_blocks(sensitivity: Array) -> float:
+    """Return how many blocks carry what is known of the columns, the poorest column deciding.
+
+    A few seconds of a run may hold all of it; then a spread over blocks is worth little.
+    """
+    parts = np.array_split(sensitivity, BLOCKS)
+    weights = np.array([np.sum(part**2, axis=0) for part in parts]) + 1e-30
+    return float(np.min(weights.sum(axis=0) ** 2 / np.sum(weights**2, axis=0)))
+
+
+def wald_p(departure: Array, spread: Array, blocks: float = BLOCKS) -> float:
+    """Return the p-value of a departure whose covariance comes from so many blocks."""
     count = len(departure)
+    if blocks < count + 1.0:
+        return 1.0
     w = float(departure @ np.linalg.pinv(spread) @ departure)
-    return float(stats.f.sf(w / count, count, BLOCKS - count))
+    return float(stats.f.sf(w / count, count, blocks - count))

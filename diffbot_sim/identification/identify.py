@@ -109,12 +109,22 @@ def _candidates(declared: Model, kinds: Sequence[type[Effect]] | None) -> tuple[
 def _doubt(
     selection: Selection, held_out: Sequence[Stretch]
 ) -> tuple[Selection, Structure | None]:
-    """Withdraw names that a free-form force outdoes; return what is left without a name."""
+    """Withdraw names that a free-form force outdoes, or that explain less than what is left.
+
+    Return what is left without a name.
+    """
     for kind in selection.final.space.kinds:
         better = outdone(selection.without[kind.name], selection.final, kind)
         if better is not None:
             return selection.withdrawn(kind.name), describe(better)
-    return selection, find_structure(Screen(selection.final), held_out)
+    left = find_structure(Screen(selection.final), held_out)
+    while left and (
+        weaker := [n for n, s in selection.support.items() if s.delta_bic < left.worth]
+    ):
+        least = min(weaker, key=lambda name: selection.support[name].delta_bic)
+        selection = selection.withdrawn(least)
+        left = find_structure(Screen(selection.final), held_out) or left
+    return selection, left
 
 
 def _for_simulation(selection: Selection, recalibrated: Fit) -> Fit:

@@ -189,4 +189,5 @@ def describe(dependence: Dependence) -> Structure:
         knots=knots,
         force=curve,
         force_error=error,
+        worth=dependence.fall,
     )

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from diffbot_sim.identification import agreement, selection, stretches
+from diffbot_sim.identification import agreement, stretches, trials
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.report.numerals import significant
 from diffbot_sim.report.sentences import split
@@ -52,9 +52,9 @@ def _errors(result: Identification) -> list[str]:
 def _decisions() -> list[str]:
     return [
         'An effect enters when three tests agree: likelihood ratio '
-        f'(p < {selection.LIKELIHOOD_LEVEL:g}, corrected for the number of effects tried), the '
-        f'same against serial correlation (p < {selection.BLOCK_LEVEL:g}) and a gain on held-out '
-        f'data (p < {selection.HELD_OUT_LEVEL:g}).',
+        f'(p < {trials.LIKELIHOOD_LEVEL:g}, corrected for the number of effects tried), the '
+        f'same against serial correlation (p < {trials.BLOCK_LEVEL:g}) and a gain on held-out '
+        f'data (p < {trials.HELD_OUT_LEVEL:g}).',
         'Effects were chosen with all fitted runs. A run disagrees when a parameter differs from '
         f'that of the others (p < {agreement.LEVEL:g}, corrected for runs and parameters) by more '
         f'than {100 * agreement.IMMATERIAL:g} %.',

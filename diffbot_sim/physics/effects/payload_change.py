@@ -14,7 +14,7 @@ ROUNDING = 1e-9
 # A load taken off leaves at least this share of the robot.
 LEAST = 0.05
 # Moments that are tried are so far apart, or more on long runs [s].
-SPACING, MOST_TRIED = 4.0, 40
+SPACING, MOST_TRIED = 1.5, 80
 
 
 @compiled
