@@ -19,15 +19,23 @@ DECLARED = Model(
 )
 SMOOTH, ROUGH = Surroundings(), Surroundings(roughness=0.3)
 
+# Where three scales from neutral are no size that anyone would meet.
+AMPLE = {
+    'actuator_saturation': {'limit': 7.0},
+    'payload_change': {'mass': 2.0, 'inertia': 0.08, 'moment': 23.4},
+    'wheel_ripple': {'order': 5.3, 'right_cos': 0.5, 'right_sin': 0.0},
+}
+
 
 def run_of(model: Model, seed: int, around: Surroundings = SMOOTH) -> Run:
     return rehearse(model, random_forces(seed, 60.0, -9.0, 11.0), around, seed)
 
 
 def with_typical(name: str) -> Model:
-    """Return the true robot with three typical sizes of an effect."""
+    """Return the true robot with an effect of ample size."""
     kind = library()[name]
-    return Model().with_effect(kind(**{s.name: s.default + 3.0 * s.scale for s in kind.specs()}))
+    values = {s.name: s.default + 3.0 * s.scale for s in kind.specs()}
+    return Model().with_effect(kind(**(values | AMPLE.get(name, {}))))
 
 
 @cache
@@ -35,10 +43,26 @@ def answer(name: str) -> Identification:
     return identify([run_of(with_typical(name), 3)], DECLARED)
 
 
+@cache
+def complete(around: Surroundings) -> Identification:
+    return identify([run_of(Model(), 1, around)], DECLARED)
+
+
 @pytest.mark.parametrize('around', [SMOOTH, ROUGH], ids=['smooth', 'rough'])
 def test_robot_that_is_only_miscalibrated_lacks_nothing(around: Surroundings) -> None:
-    result = identify([run_of(Model(), 1, around)], DECLARED)
+    result = complete(around)
     assert (result.verdict, result.effects, result.unexplained) == ('nothing_missing', (), None)
+
+
+def test_force_of_a_rough_floor_is_seen_where_nothing_is_missing() -> None:
+    force = complete(ROUGH).comparisons[0].disturbance[:, 0]
+    assert 0.1 < force.std() < 0.6  # two wheels with 0.3 N each, smoothed by the estimate
+
+
+def test_errors_are_told_by_horizon_and_one_run_has_none_to_agree_with() -> None:
+    result = complete(ROUGH)
+    assert [item.name for item in result.horizons] == ['one step', '1 s', '5 s', 'free-running']
+    assert result.runs == ()
 
 
 @pytest.mark.parametrize('name', list(laws()))

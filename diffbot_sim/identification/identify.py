@@ -109,7 +109,7 @@ def _candidates(declared: Model, kinds: Sequence[type[Effect]] | None) -> tuple[
 def _doubt(
     selection: Selection, held_out: Sequence[Stretch]
 ) -> tuple[Selection, Structure | None]:
-    """Withdraw names that a free-form force outdoes, or that explain less than what is left.
+    """Withdraw names that a free-form force outdoes, or the weakest if more is left than it explains.
 
     Return what is left without a name.
     """
@@ -118,13 +118,13 @@ def _doubt(
         if better is not None:
             return selection.withdrawn(kind.name), describe(better)
     left = find_structure(Screen(selection.final), held_out)
-    while left and (
-        weaker := [n for n, s in selection.support.items() if s.delta_bic < left.worth]
-    ):
-        least = min(weaker, key=lambda name: selection.support[name].delta_bic)
-        selection = selection.withdrawn(least)
-        left = find_structure(Screen(selection.final), held_out) or left
-    return selection, left
+    if left is None or not selection.support:
+        return selection, left
+    weakest = min(selection.support, key=lambda name: selection.support[name].delta_bic)
+    if selection.support[weakest].delta_bic > left.worth:
+        return selection, left
+    selection = selection.withdrawn(weakest)
+    return selection, find_structure(Screen(selection.final), held_out) or left
 
 
 def _for_simulation(selection: Selection, recalibrated: Fit) -> Fit:

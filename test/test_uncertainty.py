@@ -1,0 +1,22 @@
+"""Estimates: values, intervals, and whether a bound stopped the fit."""
+
+import numpy as np
+
+from diffbot_sim.identification.coordinates import Space
+from diffbot_sim.identification.uncertainty import estimates_at
+from diffbot_sim.physics import Model
+
+SPACE = Space(Model(), ())
+NAMES = [coordinate.name for coordinate in SPACE.coordinates]
+
+
+def test_parameter_that_a_bound_stopped_is_marked_and_no_other() -> None:
+    u = SPACE.prior()
+    u[NAMES.index('mu_viscous')] = 1e-5
+    found = estimates_at(SPACE, u, 1e-4 * np.eye(len(u)))
+    assert [name for name, estimate in found.items() if estimate.at_bound] == ['mu_viscous']
+
+
+def test_interval_of_a_mass_follows_from_its_logarithm() -> None:
+    mass = estimates_at(SPACE, SPACE.prior(), 1e-4 * np.eye(len(NAMES)))['mass']
+    np.testing.assert_allclose(mass.high - mass.value, 10.0 * 0.01 * 2.02, rtol=0.01)
