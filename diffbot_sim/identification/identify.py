@@ -109,9 +109,9 @@ def _candidates(declared: Model, kinds: Sequence[type[Effect]] | None) -> tuple[
 def _doubt(
     selection: Selection, held_out: Sequence[Stretch]
 ) -> tuple[Selection, Structure | None]:
-    """Withdraw names that a free-form force outdoes, or the weakest if more is left than it explains.
+    """Withdraw names that a free-form force outdoes; return what is left without a name.
 
-    Return what is left without a name.
+    Where more is left than the weakest name explains, that name goes too.
     """
     for kind in selection.final.space.kinds:
         better = outdone(selection.without[kind.name], selection.final, kind)

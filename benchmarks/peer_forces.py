@@ -1,0 +1,61 @@
+"""Forces of the peer plant: from commands to wheels, on the body, and the limits of friction."""
+
+from math import copysign, cos, exp, pi, sin
+
+from numba import njit
+from peer_plant import Plant
+
+GRAVITY = 9.81
+
+
+@njit(cache=True)
+def acting(p: Plant, command: float) -> float:
+    """Return the force [N] that a motor aims at: less the dead band, then clipped."""
+    size = max(abs(command) - p.deadband, 0.0)
+    return copysign(min(size, p.saturation), command)
+
+
+@njit(cache=True)
+def traction(p: Plant, time: float, motor: float, angle: float, right: bool) -> float:
+    """Return what drives a wheel [N], from its motor's force [N] and its angle [rad]."""
+    gain = p.gain_right if right else p.gain_left
+    force = gain * (1.0 - p.fade * time) * exp(-p.decay * time) * motor
+    force *= 1.0 - p.slip * (force / p.slip_force) ** 2
+    ripple, phase = (p.ripple_right, p.phase_right) if right else (p.ripple_left, p.phase_left)
+    bias = p.bias_right if right else p.bias_left
+    return force + bias + ripple * sin(p.ripple_order * angle + phase)
+
+
+@njit(cache=True)
+def body_force(p: Plant, time: float, mass: float, v: float, omega: float, yaw: float) -> float:
+    """Return what pushes the body forward [N], wheels aside, seen from the axle's middle."""
+    uphill = p.rise_x * cos(yaw) + p.rise_y * sin(yaw)
+    force = mass * p.ahead * omega**2 - p.drag * v * abs(v) - mass * GRAVITY * uphill
+    force += p.sway * sin(2.0 * pi * p.sway_rate * time)
+    if p.bump != 0.0 and v != 0.0:
+        near = (abs(v) - p.bump_speed) / p.bump_width
+        force -= copysign(p.bump * exp(-(near**2)), v)
+    return force
+
+
+@njit(cache=True)
+def body_torque(p: Plant, mass: float, v: float, omega: float, yaw: float) -> float:
+    """Return what turns the body about the axle's middle [N·m], wheels aside."""
+    sideways = p.rise_y * cos(yaw) - p.rise_x * sin(yaw)
+    return -mass * p.ahead * (v * omega + GRAVITY * sideways)
+
+
+@njit(cache=True)
+def wheel_friction(
+    p: Plant, time: float, x: float, speed: float, right: bool
+) -> tuple[float, float, float, float]:
+    """Return dry friction [N] forward, backward and viscous friction [N·s/m] likewise."""
+    aged = 1.0 + p.warming * (1.0 - exp(-time / p.warm_time)) + p.wear * time
+    dry = aged * (p.coulomb + (p.static - p.coulomb) * exp(-p.stribeck * abs(speed)))
+    viscous = aged * p.viscous
+    if not right:
+        dry *= 1.0 + p.left_dry
+        viscous *= 1.0 + p.left_viscous
+    rough = p.patch if sin(pi * x / p.patch_width) > 0.0 else 0.0
+    back, back_viscous = dry * (1.0 + p.backward_dry), viscous * (1.0 + p.backward_viscous)
+    return dry + rough, back + rough, viscous, back_viscous

@@ -1,0 +1,84 @@
+"""A differential drive of other make: what a robot is here, as plain numbers.
+
+Neither equation of motion nor integrator is shared with diffbot_sim, so that identification is
+judged on motions that its own simulator did not make. Every number that is 0 (a gain that is 1,
+a limit that is infinite) switches its effect off.
+"""
+
+from math import inf
+from typing import NamedTuple
+
+
+class Plant(NamedTuple):
+    """A robot with all that may act on it; SI units, wheels are named by side.
+
+    inertia is about the centre of gravity, which lies `ahead` [m] of the axle. Friction of each
+    wheel, odd in its speed w: (coulomb + (static − coulomb) e^(−stribeck |w|)) sign w + viscous w.
+    """
+
+    mass: float
+    inertia: float
+    half: float
+    radius: float
+    static: float
+    coulomb: float
+    viscous: float
+    stribeck: float
+
+    # Effects of the vocabulary. c [kg/m] in −c v |v|.
+    drag: float = 0.0
+    # How steeply the floor rises towards world x and y [rad].
+    rise_x: float = 0.0
+    rise_y: float = 0.0
+    # Torque against turning [N·m], [N·m·s].
+    yaw_dry: float = 0.0
+    yaw_viscous: float = 0.0
+    # By which share the left wheel's friction exceeds that of the right.
+    left_dry: float = 0.0
+    left_viscous: float = 0.0
+    # By which share friction of a wheel that rolls backward exceeds that forward.
+    backward_dry: float = 0.0
+    backward_viscous: float = 0.0
+    # From command to force [s]; a whole number of steps is taken for the delay.
+    lag: float = 0.0
+    delay: float = 0.0
+    gain_right: float = 1.0
+    gain_left: float = 1.0
+    # [N]
+    saturation: float = inf
+    deadband: float = 0.0
+    # Force gain (1 − fade t) e^(−decay t) [1/s].
+    fade: float = 0.0
+    decay: float = 0.0
+    # [N]
+    bias_right: float = 0.0
+    bias_left: float = 0.0
+    # Load [kg, kg·m²] that is there from a moment [s] on.
+    load_mass: float = 0.0
+    load_inertia: float = 0.0
+    load_time: float = 0.0
+    ahead: float = 0.0
+    # Force [N] times sin(order × wheel angle + phase).
+    ripple_right: float = 0.0
+    ripple_left: float = 0.0
+    ripple_order: float = 1.0
+    phase_right: float = 0.0
+    phase_left: float = 0.0
+    # Friction times 1 + warming (1 − e^(−t / warm_time)) + wear t [-, s, 1/s].
+    warming: float = 0.0
+    warm_time: float = 1.0
+    wear: float = 0.0
+
+    # Effects that no vocabulary has. A force [N] against motion, greatest at ±bump_speed [m/s].
+    bump: float = 0.0
+    bump_speed: float = 1.0
+    bump_width: float = 1.0
+    # Dry friction of each wheel [N] on every second band of the floor across x, of a width [m].
+    patch: float = 0.0
+    patch_width: float = 1.0
+    # Share of the force that is lost at a force of slip_force [N]; it grows as the square.
+    slip: float = 0.0
+    slip_force: float = 1.0
+    # A force [N] of a frequency [Hz] in time.
+    sway: float = 0.0
+    sway_rate: float = 0.0

@@ -1,0 +1,112 @@
+"""Moreau's time stepping: friction is an inclusion in the velocity at the end of each step.
+
+Wheels and dry yaw friction make a complementarity problem of three small contacts, solved by
+projected Gauss–Seidel from the solution of the step before. First order, never a regularised
+friction: a contact that sticks has a speed of exactly zero.
+"""
+
+from math import cos, sin
+
+import numpy as np
+from numba import njit
+from peer_forces import acting, body_force, body_torque, traction, wheel_friction
+from peer_plant import Plant
+
+from diffbot_sim.records import Array
+
+STEP = 2e-4  # [s]
+# The iteration ends after so many sweeps, or when no force changes by more [N].
+SWEEPS, SETTLED = 100, 1e-11
+
+# The state: wheel speeds [m/s], pose [m, m, rad], wheel angles [rad], motor forces [N], friction
+# of the right wheel, the left one [N] and against turning [N·m], and the number of steps made.
+RIGHT, LEFT, X, Y, YAW, ANGLE_R, ANGLE_L, MOTOR_R, MOTOR_L = range(9)
+FRICTION_R, FRICTION_L, SCRUB, COUNT, SIZE = range(9, 14)
+
+
+def at_rest(p: Plant) -> tuple[Array, Array]:
+    """Return a state at rest and the commands [N] under way: one row for each step of delay."""
+    return np.zeros(SIZE), np.zeros((round(p.delay / STEP) + 1, 2))
+
+
+@njit(cache=True)
+def advance(
+    p: Plant, s: Array, way: Array, right: float, left: float, push: Array, steps: int
+) -> None:
+    """Move the state on under held commands [N] and pushes on the wheels [N]."""
+    for _ in range(steps):
+        time, newest = s[COUNT] * STEP, int(s[COUNT]) % len(way)
+        way[newest, 0], way[newest, 1] = right, left
+        oldest = (newest + 1) % len(way)
+        follow = STEP / (p.lag + STEP)
+        s[MOTOR_R] += follow * (acting(p, way[oldest, 0]) - s[MOTOR_R])
+        s[MOTOR_L] += follow * (acting(p, way[oldest, 1]) - s[MOTOR_L])
+        force_r = push[0] + traction(p, time, s[MOTOR_R], s[ANGLE_R], True)
+        force_l = push[1] + traction(p, time, s[MOTOR_L], s[ANGLE_L], False)
+        _roll(p, s, time, force_r, force_l)
+        s[COUNT] += 1.0
+
+
+@njit(cache=True)
+def _roll(p: Plant, s: Array, time: float, force_r: float, force_l: float) -> None:
+    """Find the velocity at the end of a step, and move the pose with the mean velocity."""
+    v, omega = 0.5 * (s[RIGHT] + s[LEFT]), 0.5 * (s[RIGHT] - s[LEFT]) / p.half
+    loaded = 1.0 if time >= p.load_time else 0.0
+    mass = p.mass + loaded * p.load_mass
+    inertia = p.inertia + loaded * p.load_inertia + mass * p.ahead**2
+    along = (body_force(p, time, mass, v, omega, s[YAW]) + force_r + force_l) * STEP / mass
+    torque = body_torque(p, mass, v, omega, s[YAW]) + p.half * (force_r - force_l)
+    around = p.half * torque * STEP / inertia
+    old_r, old_l = s[RIGHT], s[LEFT]
+    _stick_or_slide(p, s, time, mass, inertia, old_r + along + around, old_l + along - around)
+    mean_r, mean_l = 0.5 * (old_r + s[RIGHT]) * STEP, 0.5 * (old_l + s[LEFT]) * STEP
+    way, turn = 0.5 * (mean_r + mean_l), 0.5 * (mean_r - mean_l) / p.half
+    s[X] += way * cos(s[YAW] + 0.5 * turn)
+    s[Y] += way * sin(s[YAW] + 0.5 * turn)
+    s[YAW] += turn
+    s[ANGLE_R] += mean_r / p.radius
+    s[ANGLE_L] += mean_l / p.radius
+
+
+@njit(cache=True)
+def _stick_or_slide(
+    p: Plant, s: Array, time: float, mass: float, inertia: float, free_r: float, free_l: float
+) -> None:
+    """Put frictions and wheel speeds into the state, from the speeds that none would leave."""
+    own, other = STEP / mass + STEP * p.half**2 / inertia, STEP / mass - STEP * p.half**2 / inertia
+    arm, turned = STEP * p.half / inertia, STEP / inertia
+    limits_r = wheel_friction(p, time, s[X], s[RIGHT], True)
+    limits_l = wheel_friction(p, time, s[X], s[LEFT], False)
+    limits_yaw = (p.yaw_dry, p.yaw_dry, p.yaw_viscous, p.yaw_viscous)
+    right, left, omega = s[RIGHT], s[LEFT], 0.0
+    f_r, f_l, scrub = s[FRICTION_R], s[FRICTION_L], s[SCRUB]
+    for _ in range(SWEEPS):
+        before_r, before_l, before_scrub = f_r, f_l, scrub
+        right, f_r = _contact(free_r - other * f_l - arm * scrub, own, limits_r)
+        left, f_l = _contact(free_l - other * f_r + arm * scrub, own, limits_l)
+        unscrubbed = 0.5 * (free_r - free_l) / p.half - arm * (f_r - f_l)
+        omega, scrub = _contact(unscrubbed, turned, limits_yaw)
+        change = max(abs(f_r - before_r), abs(f_l - before_l), abs(scrub - before_scrub))
+        if change <= SETTLED:
+            break
+    if omega == 0.0:
+        right = left = 0.0 if right == 0.0 or left == 0.0 else 0.5 * (right + left)
+    s[RIGHT], s[LEFT], s[FRICTION_R], s[FRICTION_L], s[SCRUB] = right, left, f_r, f_l, scrub
+
+
+@njit(cache=True)
+def _contact(
+    free: float, compliance: float, limits: tuple[float, float, float, float]
+) -> tuple[float, float]:
+    """Return speed and friction of one contact, from its speed without friction.
+
+    compliance: fall of its speed for each unit of its friction.
+    """
+    forward, backward, viscous, back_viscous = limits
+    if free > compliance * forward:
+        speed = (free - compliance * forward) / (1.0 + compliance * viscous)
+        return speed, forward + viscous * speed
+    if free < -compliance * backward:
+        speed = (free + compliance * backward) / (1.0 + compliance * back_viscous)
+        return speed, -backward + back_viscous * speed
+    return 0.0, free / compliance
