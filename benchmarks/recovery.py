@@ -1,77 +1,80 @@
-"""How often identification is right: clean robots, and robots with one effect, on two floors.
+"""How often identification is right, on drives of a plant that it does not know.
 
-python benchmarks/recovery.py --seeds 20            clean sets and every effect, smooth and rough
-python benchmarks/recovery.py --seeds 20 --only clean
+python benchmarks/recovery.py --family clean --seeds 0:2     run cases; those done are skipped
+python benchmarks/recovery.py --family pairs --share 0.1     a tenth of them, always the same
+python benchmarks/recovery.py --table                        what all cases so far add up to
+python benchmarks/recovery.py --wrong                        on which evidence answers were wrong
 """
 
 import json
-from argparse import ArgumentParser
-from collections.abc import Iterator
+import os
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterable
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from multiprocessing import get_context
 from pathlib import Path
-from time import perf_counter
 
-import numpy as np
+from recovery_cases import FAMILIES, Case, Row, cases
+from recovery_evidence import evidence
+from recovery_judge import judge
+from recovery_tables import right, tables, told
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
-from diffbot_sim.identification import identify
-from diffbot_sim.physics import Friction, Model, Robot
-from diffbot_sim.physics.effects import library
-
-DURATION, LEAST, MOST = 120.0, -9.0, 11.0
-FLOORS = {'smooth': Surroundings(), 'rough': Surroundings(roughness=0.3)}
-DECLARED = Model(
-    Robot(mass=11.0, inertia=0.35),
-    Friction(mu_coulomb=0.035, mu_static=0.045, mu_viscous=0.07),
-)
-# Sizes of the planted effects, in their own scales.
-SIZES = (2.0, 4.0)
-
-
-def planted(name: str, seed: int) -> Model:
-    """Return the true robot of a case: clean, or with one effect of random size and sign."""
-    if name == 'clean':
-        return Model()
-    random, kind = np.random.default_rng([seed, len(name)]), library()[name]
-    signs = [random.choice([-1.0, 1.0]) if s.low < s.default else 1.0 for s in kind.specs()]
-    values = {
-        spec.name: spec.default + sign * spec.scale * random.uniform(*SIZES)
-        for spec, sign in zip(kind.specs(), signs, strict=True)
-    }
-    return Model().with_effect(kind(**values))
-
-
-def cases(only: str | None, seeds: int) -> Iterator[tuple[str, str, int]]:
-    """List name, floor and seed of every case."""
-    for name in ['clean', *library()] if only is None else [only]:
-        for floor in FLOORS:
-            for seed in range(seeds):
-                yield name, floor, seed
+# Each process has one thread for every library; `identify` has a few of its own.
+THREADS = ('NUMBA_NUM_THREADS', 'OMP_NUM_THREADS', 'OPENBLAS_NUM_THREADS', 'MKL_NUM_THREADS')
 
 
 def main() -> None:
-    """Run all cases, print a line each and the table of shares."""
-    parser = ArgumentParser(description=__doc__)
-    parser.add_argument('--seeds', type=int, default=20)
-    parser.add_argument('--only', choices=['clean', *library()])
-    parser.add_argument('--out', type=Path, default=Path('out/recovery.json'))
-    options = parser.parse_args()
-    rows = []
-    for name, floor, seed in cases(options.only, options.seeds):
-        begin = perf_counter()
-        commands = random_forces(seed, DURATION, LEAST, MOST)
-        run = rehearse(planted(name, seed), commands, FLOORS[floor], seed)
-        result = identify([run], DECLARED)
-        found = [effect.name for effect in result.effects]
-        right = found == ([] if name == 'clean' else [name]) and result.unexplained is None
-        rows.append({'case': name, 'floor': floor, 'seed': seed, 'right': right, 'found': found})
-        told = result.verdict if not found else ', '.join(found)
-        print(f'{name} {floor} {seed}: {told} ({perf_counter() - begin:.0f} s)', flush=True)
+    """Judge the chosen cases that have not been, or tell what all of them say."""
+    options = _options()
+    if options.table:
+        print(tables(rows(options.out)))
+    elif options.wrong:
+        print('\n\n'.join(evidence(row) for row in rows(options.out) if not right(row)))
+    else:
+        _judge(options)
+
+
+def _judge(options: Namespace) -> None:
+    done = {row['name'] for row in rows(options.out)}
+    chosen = cases(options.family or list(FAMILIES), options.seeds, options.share)
+    if options.only is not None:
+        chosen = (case for case in chosen if options.only in case.name)
     options.out.parent.mkdir(parents=True, exist_ok=True)
-    options.out.write_text(json.dumps(rows, indent=1))
-    for name in dict.fromkeys(row['case'] for row in rows):
-        for floor in FLOORS:
-            group = [row for row in rows if (row['case'], row['floor']) == (name, floor)]
-            print(f'{name:32} {floor:8} right {sum(r["right"] for r in group)} of {len(group)}')
+    with options.out.open('a') as file:
+        for row in judged([c for c in chosen if c.name not in done], options.processes):
+            file.write(json.dumps(row) + '\n')
+            file.flush()
+            print(told(row), flush=True)
+
+
+def rows(path: Path) -> list[Row]:
+    """Read the rows of all cases judged so far."""
+    return [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+
+
+def judged(chosen: Iterable[Case], processes: int) -> Iterable[Row]:
+    """Judge cases in processes of one thread each; rows come as they are ready."""
+    os.environ.update(dict.fromkeys(THREADS, '1'))
+    with ProcessPoolExecutor(processes, get_context('spawn')) as pool:
+        for future in as_completed([pool.submit(judge, case) for case in chosen]):
+            yield future.result()
+
+
+def _options() -> Namespace:
+    parser = ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument('--family', nargs='+', choices=FAMILIES, help='default: all of them')
+    parser.add_argument('--seeds', type=_range, default=range(1), help='FIRST:END or a number')
+    parser.add_argument('--share', type=float, default=1.0, help='of the cases, at random')
+    parser.add_argument('--only', help='cases whose name contains this')
+    parser.add_argument('--processes', type=int, default=1)
+    parser.add_argument('--out', type=Path, default=Path('out/recovery.jsonl'))
+    parser.add_argument('--table', action='store_true', help='print Markdown tables, run nothing')
+    parser.add_argument('--wrong', action='store_true', help='print wrong answers, run nothing')
+    return parser.parse_args()
+
+
+def _range(text: str) -> range:
+    return range(*(int(part) for part in text.split(':')))
 
 
 if __name__ == '__main__':

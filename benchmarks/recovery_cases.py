@@ -1,0 +1,90 @@
+"""The cases that identification is judged on: families of robots, effects, sizes and floors."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations, product
+from typing import Any
+from zlib import crc32
+
+from peer_effects import EFFECTS, FOREIGN
+from peer_robots import MAKES
+
+# What is written down of a case that was judged.
+Row = dict[str, Any]
+
+FLOORS = ('smooth', 'rough')
+# Effects whose detection is followed over their size, in multiples of a weak one.
+FOLLOWED = ('quadratic_drag', 'actuator_lag', 'wheel_friction_asymmetry', 'payload_change')
+MULTIPLES = ('0.25×', '0.5×', '1×', '2×', '4×', '8×')
+
+
+@dataclass(frozen=True)
+class Case:
+    """A robot with some effects of a size on a floor; removed: the library lacks them."""
+
+    family: str
+    effects: tuple[str, ...]
+    size: str
+    make: str
+    floor: str
+    seed: int
+    removed: bool = False
+
+    @property
+    def name(self) -> str:
+        """What tells it from all other cases."""
+        effects = '+'.join(self.effects) or 'none'
+        return f'{self.family} {effects} {self.size} {self.make} {self.floor} {self.seed}'
+
+
+def _clean(seed: int) -> Iterator[Case]:
+    for make, floor in product(MAKES, FLOORS):
+        yield Case('clean', (), '-', make, floor, seed)
+
+
+def _single(seed: int) -> Iterator[Case]:
+    for name, size, floor in product(EFFECTS, ('typical', 'weak'), FLOORS):
+        yield Case('single', (name,), size, _make(seed), floor, seed)
+
+
+def _pairs(seed: int) -> Iterator[Case]:
+    for pair, floor in product(combinations(EFFECTS, 2), FLOORS):
+        yield Case('pairs', pair, 'typical', _make(seed), floor, seed)
+
+
+def _removed(seed: int) -> Iterator[Case]:
+    for name, floor in product(EFFECTS, FLOORS):
+        yield Case('removed', (name,), 'typical', _make(seed), floor, seed, removed=True)
+
+
+def _foreign(seed: int) -> Iterator[Case]:
+    for name, floor in product(FOREIGN, FLOORS):
+        yield Case('foreign', (name,), 'typical', _make(seed), floor, seed)
+
+
+def _sizes(seed: int) -> Iterator[Case]:
+    for name, size, floor in product(FOLLOWED, MULTIPLES, FLOORS):
+        yield Case('sizes', (name,), size, _make(seed), floor, seed)
+
+
+FAMILIES: dict[str, Callable[[int], Iterator[Case]]] = {
+    'clean': _clean,
+    'single': _single,
+    'pairs': _pairs,
+    'removed': _removed,
+    'foreign': _foreign,
+    'sizes': _sizes,
+}
+
+
+def cases(families: Sequence[str], seeds: range, share: float) -> Iterator[Case]:
+    """List the cases of families, seed by seed; of a share, always the same ones."""
+    for seed, family in product(seeds, families):
+        for case in FAMILIES[family](seed):
+            if crc32(case.name.encode()) / 2**32 < share:
+                yield case
+
+
+def _make(seed: int) -> str:
+    """Return the robot whose turn it is."""
+    return tuple(MAKES)[seed % len(MAKES)]
