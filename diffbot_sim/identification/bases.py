@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -68,34 +69,40 @@ class Basis:
 def bases(fit: Fit, stretches: Sequence[Stretch], like: Basis | None = None) -> list[Basis]:
     """Return every basis on these stretches; with `like`, its functions alone."""
     found = predictions(fit, stretches)
-    pairs = list(zip(stretches, found, strict=True))
-    columns = {
-        name: [_variables(fit, stretch, prediction)[name] for stretch, prediction in pairs]
-        for name in ('v', 'omega', 'heading', 'wheel_angle', 'time', 'traction', 'command_change')
-    }
     unit = UNIT_SHARE * max(float(np.abs(s.run.commands.force).max()) for s in stretches)
     result = []
     for axis in AXES:
-        for name, values in columns.items():
+        rows = [_terms(fit, s, p, axis) for s, p in zip(stretches, found, strict=True)]
+        for name in set.intersection(*(set(row) for row in rows)):
             if like is not None and (axis, name) != (like.axis, like.variable):
                 continue
-            knots = like.knots if like is not None else _knots(name, np.concatenate(values))
-            evaluated = tuple(_evaluate(name, column, knots) for column in values)
+            terms = [row[name] for row in rows]
+            everywhere = np.concatenate([term.values.ravel() for term in terms])
+            knots = like.knots if like is not None else _knots(name, everywhere)
+            evaluated = tuple(_evaluate(name, term, knots) for term in terms)
             lever = fit.model.robot.half_separation if axis == 'omega' else 1.0
             scale = like.unit if like is not None else unit * lever
             if evaluated[0].shape[1] > 0:
                 result.append(Basis(axis, name, knots, scale, evaluated))
-    return result
+    return sorted(result, key=lambda basis: (basis.axis, basis.variable))
 
 
-def _variables(fit: Fit, stretch: Stretch, prediction: Prediction) -> dict[str, Array]:
+class _Term(NamedTuple):
+    """Where functions of a variable are evaluated and added up: shapes (k, j), weights too."""
+
+    values: Array
+    weights: Array
+
+
+def _terms(fit: Fit, stretch: Stretch, prediction: Prediction, axis: str) -> dict[str, _Term]:
     time, radius = stretch.time, fit.model.robot.wheel_radius
     commands = stretch.run.commands
     force = _held(commands.time, commands.force, time)
     before = _held(commands.time, commands.force, time - RECENT)
     steps = np.cumsum(np.diff(time) * prediction.twist[:-1, 0])
     way = stretch.start.travelled + np.concatenate([[0.0], steps])
-    return {
+    sides = np.array([1.0, 1.0 if axis == 'v' else -1.0])
+    plain = {
         'v': prediction.twist[:, 0],
         'omega': prediction.twist[:, 1],
         'heading': stretch.heading,
@@ -104,6 +111,16 @@ def _variables(fit: Fit, stretch: Stretch, prediction: Prediction) -> dict[str, 
         'traction': force.sum(axis=1),
         'command_change': (force - before).sum(axis=1),
     }
+    terms = {name: _Term(x[:, None], np.ones((len(time), 1))) for name, x in plain.items()}
+    terms['wheel_force'] = _Term(force, np.broadcast_to(sides, force.shape))
+    most = max(float(np.abs(commands.force).max()), 1e-9)
+    terms['force_over_time'] = _Term(time[:, None], (force @ sides)[:, None] / most)
+    if stretch.pose is not None:
+        rolling = np.sign(prediction.twist)
+        against = rolling[:, [AXES.index(axis)]]
+        terms['place_x'] = _Term(stretch.pose[:, [0]], against)
+        terms['place_y'] = _Term(stretch.pose[:, [1]], against)
+    return terms
 
 
 def _held(stamps: Array, force: Array, time: Array) -> Array:
@@ -118,12 +135,14 @@ def _knots(name: str, values: Array) -> Array:
     return np.unique(np.quantile(values, np.linspace(0.0, 1.0, KNOTS)))
 
 
-def _evaluate(name: str, values: Array, knots: Array) -> Array:
+def _evaluate(name: str, term: _Term, knots: Array) -> Array:
+    """Return the functions of a variable along a stretch, shape (k, q)."""
     if name in PERIODIC:
-        return _periodic(values)
+        return _periodic(term.values[:, 0])
     if len(knots) < 3 or knots[-1] - knots[0] < 1e-6:
-        return np.empty((len(values), 0))
-    return np.stack([np.interp(values, knots, hat) for hat in np.eye(len(knots))], axis=1)
+        return np.empty((len(term.values), 0))
+    hats = [np.interp(term.values, knots, hat) for hat in np.eye(len(knots))]
+    return np.stack([np.sum(term.weights * hat, axis=1) for hat in hats], axis=1)
 
 
 def _periodic(values: Array) -> Array:

@@ -22,6 +22,8 @@ GAIN_LIMITS = (np.zeros(6), np.array([0.95, 0.5, 0.999, 0.95, 0.5, 0.999]))
 GAIN_PRIOR = np.array([0.0, 0.0, 0.3, 0.0, 0.0, 0.3])
 # Beyond this many standard deviations an error counts linearly: events cannot dominate.
 HUBER = 3.0
+# An error that is as bad as any.
+WORST = 1e9
 # Step of finite differences, in coordinates of order one.
 DIFFERENCE = 1e-5
 Errors = Callable[[Array, Array], Array]
@@ -97,7 +99,8 @@ def whitened(
         push = None if pushes is None else pushes[index]
         innovation = predict(model, stretch, gains, push).innovation
         rows.append((innovation * stretch.used[:, None])[stretch.used > 0] / sigma)
-    return np.concatenate(rows)
+    # Parameters far from any robot make numbers that cannot be squared; they only have to be bad.
+    return np.nan_to_num(np.clip(np.concatenate(rows), -WORST, WORST), nan=WORST)
 
 
 def predictions(fit: Fit, stretches: Sequence[Stretch]) -> list[Prediction]:

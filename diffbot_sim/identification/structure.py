@@ -35,6 +35,10 @@ WORDS = {
     'time': 'time',
     'traction': 'the commanded force',
     'command_change': 'recent changes of the command',
+    'wheel_force': "each wheel's commanded force",
+    'force_over_time': 'time, in proportion to the commanded force',
+    'place_x': 'where along x it rolls, against the motion',
+    'place_y': 'where along y it rolls, against the motion',
 }
 
 
