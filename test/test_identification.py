@@ -19,11 +19,24 @@ DECLARED = Model(
 )
 SMOOTH, ROUGH = Surroundings(), Surroundings(roughness=0.3)
 
+# One or two effects of each stage; benchmarks/recovery.py tries them all, on a peer's plant.
+EXAMPLES = (
+    'actuator_deadband',
+    'actuator_delay',
+    'actuator_lag',
+    'wheel_ripple',
+    'friction_drift',
+    'yaw_friction',
+    'slope',
+    'quadratic_drag',
+    'payload_change',
+)
+RIPPLE = ('order', 'right_cos', 'right_sin', 'left_cos', 'left_sin')
 # Where three scales from neutral are no size that anyone would meet.
 AMPLE = {
     'actuator_saturation': {'limit': 7.0},
     'payload_change': {'mass': 2.0, 'inertia': 0.08, 'moment': 23.4},
-    'wheel_ripple': {'order': 5.3, 'right_cos': 0.5, 'right_sin': 0.0},
+    'wheel_ripple': dict(zip(RIPPLE, (5.3, 0.5, 0.0, 0.2, 0.4), strict=True)),
 }
 
 
@@ -65,14 +78,14 @@ def test_errors_are_told_by_horizon_and_one_run_has_none_to_agree_with() -> None
     assert result.runs == ()
 
 
-@pytest.mark.parametrize('name', list(laws()))
+@pytest.mark.parametrize('name', EXAMPLES)
 def test_hidden_effect_is_named_alone(name: str) -> None:
     result = answer(name)
     assert [effect.name for effect in result.effects] == [name]
     assert result.verdict == 'effects_found'
 
 
-@pytest.mark.parametrize('name', list(laws()))
+@pytest.mark.parametrize('name', EXAMPLES)
 def test_error_with_the_effect_falls_to_the_noise_floor(name: str) -> None:
     errors = answer(name).errors
     assert errors.with_effects.v_rmse < 1.05 * errors.noise_floor.v_rmse
