@@ -117,14 +117,14 @@ def wald(fit: Fit, indices: Sequence[int]) -> float:
 
 
 def informative_blocks(sensitivity: Array) -> float:
-    """Return how many blocks carry what is known of the columns, the poorest column deciding.
+    """Return how many blocks carry what is known of the columns, the richest column deciding.
 
-    A few seconds of a run may hold all of it; then a spread over blocks is worth little. Absolute
-    values, not squares: one stop, a sample early or late, must not outweigh all the rest.
+    A few seconds of a run may hold all of it; then a spread over blocks is worth little. What is
+    usual in a block counts: one stop, a sample early or late, must not outweigh all the rest.
     """
     parts = np.array_split(np.abs(sensitivity), BLOCKS)
-    weights = np.array([np.sum(part, axis=0) for part in parts]) + 1e-30
-    return float(np.min(weights.sum(axis=0) ** 2 / np.sum(weights**2, axis=0)))
+    weights = np.array([np.median(part, axis=0) for part in parts]) + 1e-30
+    return float(np.max(weights.sum(axis=0) ** 2 / np.sum(weights**2, axis=0)))
 
 
 def wald_p(departure: Array, spread: Array, blocks: float = BLOCKS) -> float:
