@@ -116,7 +116,7 @@ def _doubt(
     for kind in selection.final.space.kinds:
         better = outdone(selection.without[kind.name], selection.final, kind)
         if better is not None:
-            return selection.withdrawn(kind.name), describe(better)
+            return selection.withdrawn(kind.name), describe(better, selection.final)
     left = find_structure(Screen(selection.final), held_out)
     if left is None or not selection.support:
         return selection, left

@@ -65,7 +65,7 @@ class Structure:
 
     axis: 'v' (force along x, N) or 'omega' (torque, N·m); variable: what it depends on;
     strength: rms of the force or torque explained by that variable; p_value: block-robust.
-    worth: fall of the deviance when it acts. knots, force: the empirical curve, with force_error
+    worth: fall of the BIC when it acts. knots, force: the empirical curve, with force_error
     its standard error, for a plot.
     """
 

@@ -80,7 +80,7 @@ def find_structure(screen: Screen, held_out: Sequence[Stretch]) -> Structure | N
         if not beyond_chance or dependence.p_block > BLOCK_LEVEL:
             continue
         if _held_out_chance(screen.fit, dependence, held_out) < HELD_OUT_LEVEL:
-            return describe(dependence)
+            return describe(dependence, screen.fit)
     return None
 
 
@@ -175,8 +175,8 @@ def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretc
     return block_gain(np.clip(gain, -MOST_OF_SAMPLE, MOST_OF_SAMPLE).sum(axis=1))[1]
 
 
-def describe(dependence: Dependence) -> Structure:
-    """Put a dependence into words and a curve."""
+def describe(dependence: Dependence, fit: Fit) -> Structure:
+    """Put a dependence that a fit lacks into words and a curve."""
     basis = dependence.basis
     knots, curve, error = basis.curve(dependence.amounts, dependence.spread)
     strength = basis.strength(dependence.amounts)
@@ -193,5 +193,5 @@ def describe(dependence: Dependence) -> Structure:
         knots=knots,
         force=curve,
         force_error=error,
-        worth=dependence.fall,
+        worth=dependence.fall - basis.size * float(np.log(fit.whitened.size)),
     )
