@@ -21,12 +21,9 @@ SMOOTH, ROUGH = Surroundings(), Surroundings(roughness=0.3)
 
 # One or two effects of each stage; benchmarks/recovery.py tries them all, on a peer's plant.
 EXAMPLES = (
-    'actuator_deadband',
     'actuator_delay',
-    'actuator_lag',
     'wheel_ripple',
     'friction_drift',
-    'yaw_friction',
     'slope',
     'quadratic_drag',
     'payload_change',
