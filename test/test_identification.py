@@ -19,7 +19,7 @@ DECLARED = Model(
 )
 SMOOTH, ROUGH = Surroundings(), Surroundings(roughness=0.3)
 
-# Effects that are searched for in different ways; benchmarks/recovery.py tries them all, on a peer's plant.
+# Effects that are searched for in different ways. benchmarks/recovery.py tries them all.
 EXAMPLES = (
     'actuator_delay',
     'wheel_ripple',
