@@ -83,7 +83,7 @@ def test_fits_start_within_bounds_and_away_from_neutral(kind):
 
 @each_effect
 def test_starts_for_any_drive_lie_within_bounds(kind):
-    small, large = (5.0, 60.0, 2.0, 0.02), (300.0, 2e3, 45.0, 9.0, (3.0, 7.5))
+    small, large = (5.0, 60.0), (300.0, 2e3, (3.0, 7.5))
     for offered in (Excitation(*small), Excitation(*large)):
         starts = kind.starts(offered)
         assert starts

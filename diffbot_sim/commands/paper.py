@@ -60,9 +60,9 @@ def run(arguments: Namespace) -> None:
     print(f'page: {page}\nfigures and series: {arguments.out / FOLDER}')
 
 
-def print_claims(claims: Sequence[Claim], console: Console | None = None) -> None:
+def print_claims(claims: Sequence[Claim]) -> None:
     """Print the table of claims and how many hold."""
-    console = console or Console(highlight=False)
+    console = Console(highlight=False)
     table = Table(box=box.SIMPLE_HEAD)
     for heading in ('where', 'what it says', 'measured', 'holds'):
         table.add_column(heading)

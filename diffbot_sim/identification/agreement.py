@@ -15,7 +15,7 @@ import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.comparison import noise, norm, run_free
-from diffbot_sim.identification.evidence import BLOCKS
+from diffbot_sim.identification.evidence import BLOCKS, block_scores
 from diffbot_sim.identification.fitting import Fit, fit_with_noise_held
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import Difference, Estimate, RunCheck
@@ -28,8 +28,6 @@ from diffbot_sim.records import Array, Run
 LEVEL = 0.01
 # Differences below this share of a parameter's typical size are no news, however certain.
 IMMATERIAL = 0.02
-# Errors beyond this many standard deviations are events, not evidence.
-CLIP = 3.0
 # Evaluations for each run's own fit, in each of its two rounds.
 EVALUATIONS = 4
 
@@ -89,10 +87,8 @@ def alone(joint: Fit, stretch: Stretch) -> Fit:
 
 def share_of(fit: Fit) -> Share:
     """Return what one run says; the spread is taken about its mean, zero where it converged."""
-    errors = np.clip(fit.whitened, -CLIP, CLIP)
     jacobian = fit.jacobian[..., : len(fit.u)]
-    parts = zip(np.array_split(jacobian, BLOCKS), np.array_split(errors, BLOCKS), strict=True)
-    scores = np.array([np.einsum('nap,na->p', j, e) for j, e in parts])
+    scores = block_scores(jacobian, fit.whitened)
     centred = scores - scores.mean(axis=0)
     information = np.einsum('nap,naq->pq', jacobian, jacobian)
     spread = centred.T @ centred * BLOCKS / (BLOCKS - 1)

@@ -8,7 +8,7 @@ import numpy as np
 
 from diffbot_sim.identification.fitting import Fit, predictions
 from diffbot_sim.identification.predictor import Prediction
-from diffbot_sim.identification.stretches import Stretch
+from diffbot_sim.identification.stretches import Stretch, travel
 from diffbot_sim.records import Array
 
 KNOTS, HARMONICS, CURVE_POINTS = 6, 2, 25
@@ -99,14 +99,12 @@ def _terms(fit: Fit, stretch: Stretch, prediction: Prediction, axis: str) -> dic
     commands = stretch.run.commands
     force = _held(commands.time, commands.force, time)
     before = _held(commands.time, commands.force, time - RECENT)
-    steps = np.cumsum(np.diff(time) * prediction.twist[:-1, 0])
-    way = stretch.start.travelled + np.concatenate([[0.0], steps])
     sides = np.array([1.0, 1.0 if axis == 'v' else -1.0])
     plain = {
         'v': prediction.twist[:, 0],
         'omega': prediction.twist[:, 1],
         'heading': stretch.heading,
-        'wheel_angle': way / radius,
+        'wheel_angle': travel(stretch, prediction.twist)[:, 0] / radius,
         'time': time,
         'traction': force.sum(axis=1),
         'command_change': (force - before).sum(axis=1),
@@ -116,8 +114,7 @@ def _terms(fit: Fit, stretch: Stretch, prediction: Prediction, axis: str) -> dic
     most = max(float(np.abs(commands.force).max()), 1e-9)
     terms['force_over_time'] = _Term(time[:, None], (force @ sides)[:, None] / most)
     if stretch.pose is not None:
-        rolling = np.sign(prediction.twist)
-        against = rolling[:, [AXES.index(axis)]]
+        against = np.sign(prediction.twist[:, [AXES.index(axis)]])
         terms['place_x'] = _Term(stretch.pose[:, [0]], against)
         terms['place_y'] = _Term(stretch.pose[:, [1]], against)
     return terms

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from diffbot_sim.identification.fitting import Fit, huber, whitened
+from diffbot_sim.identification.fitting import Fit, huber, influence, whitened
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch
@@ -94,17 +94,16 @@ def covariance(fit: Fit) -> Array:
 
 def sandwich(jacobian: Array, errors: Array) -> Array:
     """Return the block-robust covariance of a least-squares fit, with the weak prior's pull."""
-    errors = np.clip(errors, -3.0, 3.0)
     size = jacobian.shape[1]
     bread = np.linalg.pinv(jacobian.T @ jacobian + np.eye(size))
-    scores = [
-        j.T @ e
-        for j, e in zip(
-            np.array_split(jacobian, BLOCKS), np.array_split(errors, BLOCKS), strict=True
-        )
-    ]
-    meat = np.einsum('bi,bj->ij', np.array(scores), np.array(scores)) * BLOCKS / (BLOCKS - 1)
-    return np.asarray(bread @ meat @ bread)
+    scores = block_scores(jacobian, errors)
+    return np.asarray(bread @ (scores.T @ scores * BLOCKS / (BLOCKS - 1)) @ bread)
+
+
+def block_scores(jacobian: Array, errors: Array) -> Array:
+    """Return J'e of each block, shape (BLOCKS, p): jacobian (n, ..., p), errors (n, ...)."""
+    parts = (np.array_split(values, BLOCKS) for values in (jacobian, influence(errors)))
+    return np.array([np.einsum('...p,...->p', j, e) for j, e in zip(*parts, strict=True)])
 
 
 def wald(fit: Fit, indices: Sequence[int]) -> float:

@@ -16,8 +16,9 @@ from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.predictor import MAX_STEP, predict
 from diffbot_sim.identification.result import Errors, Horizon
 from diffbot_sim.identification.start import WINDOW
-from diffbot_sim.identification.stretches import Stretch
+from diffbot_sim.identification.stretches import Stretch, integral
 from diffbot_sim.physics import simulate
+from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array
@@ -76,7 +77,7 @@ def _restarted(models: Sequence[Model], final: Fit, held_out: Sequence[Stretch])
 
 def _errors(models: Sequence[Model], final: Fit, stretch: Stretch, spacing: float) -> Array:
     """Return measured - simulated twist: restarts × models × AHEAD × (v, ω); NaN past the end."""
-    time = stretch.time
+    time, wholes = stretch.time, [embedded(model) for model in models]
     speeds = predict(final.model, stretch, final.gains).twist
     moments = np.searchsorted(time, np.arange(time[0] + WINDOW, time[-1] - AHEAD[0], spacing))
     errors = np.full((len(moments), len(models), len(AHEAD), 2), np.nan)
@@ -84,7 +85,7 @@ def _errors(models: Sequence[Model], final: Fit, stretch: Stretch, spacing: floa
         start = state_at(stretch, speeds, moment)
         ends = np.searchsorted(time, time[moment] + np.array(AHEAD) - 1e-6)
         ends = ends[ends < len(time)]
-        for column, model in enumerate(models):
+        for column, model in enumerate(wholes):
             run = simulate(model, stretch.run.commands, time[[moment, *ends]], start, MAX_STEP)
             errors[row, column, : len(ends)] = stretch.twist[ends] - run.twist[1:]
     return errors
@@ -92,9 +93,8 @@ def _errors(models: Sequence[Model], final: Fit, stretch: Stretch, spacing: floa
 
 def state_at(stretch: Stretch, speeds: Array, moment: int) -> State:
     """Return the state at a sample: speeds as given, place and heading as measured."""
-    steps = np.diff(stretch.time[: moment + 1])[:, None]
-    middle = 0.5 * (stretch.twist[1 : moment + 1] + stretch.twist[:moment])
-    travelled, turned = np.sum(steps * middle, axis=0)
+    time, twist = stretch.time[: moment + 1], stretch.twist[: moment + 1]
+    travelled, turned = (integral(time, rate)[-1] for rate in twist.T)
     x, y = (0.0, 0.0) if stretch.pose is None else stretch.pose[moment, :2]
     return State(
         x=float(x),

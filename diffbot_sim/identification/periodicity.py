@@ -3,6 +3,7 @@
 import numpy as np
 
 from diffbot_sim.identification.fitting import Fit, predictions
+from diffbot_sim.identification.stretches import travel
 from diffbot_sim.records import Array
 
 # Orders [cycles per revolution] that are looked at, and how many of the strongest are kept.
@@ -38,9 +39,7 @@ def _by_wheel(fit: Fit) -> tuple[Array, Array]:
     mix = np.array([[1.0, 1.0], [b, -b]])
     angles, errors = [], []
     for stretch, found in zip(fit.stretches, predictions(fit, fit.stretches), strict=True):
-        steps = np.diff(stretch.time)[:, None] * found.twist[:-1] @ mix / r
-        first = np.array([stretch.start.travelled, stretch.start.turned]) @ mix / r
-        angles.append(first + np.vstack([np.zeros(2), np.cumsum(steps, axis=0)]))
+        angles.append(travel(stretch, found.twist) @ mix / r)
         errors.append((found.innovation * stretch.used[:, None]) @ mix)
     return np.concatenate(angles), np.concatenate(errors)
 

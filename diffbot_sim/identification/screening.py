@@ -8,7 +8,7 @@ import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.coordinates import Space, point_of
-from diffbot_sim.identification.fitting import Fit, whitened
+from diffbot_sim.identification.fitting import Fit, influence, whitened
 from diffbot_sim.identification.periodicity import wheel_orders
 from diffbot_sim.physics.effects import Effect, Excitation
 from diffbot_sim.records import Array
@@ -50,7 +50,7 @@ class Screen:
         free = jacobian[:, size > 1e-9] / size[size > 1e-9]
         self._basis = np.linalg.svd(free, full_matrices=False)[0]
         self._jacobian = jacobian
-        self._errors = self.project(np.clip(fit.whitened, -3.0, 3.0))
+        self._errors = self.project(influence(fit.whitened))
 
     @property
     def residual(self) -> Array:
@@ -99,12 +99,10 @@ class Screen:
     @cached_property
     def drive(self) -> Excitation:
         """What the fitted stretches offer to starting points."""
-        stretches, robot = self.fit.stretches, self.fit.model.robot
+        stretches = self.fit.stretches
         return Excitation(
             force=max(float(np.abs(s.run.commands.force).max()) for s in stretches),
             duration=max(float(s.time[-1]) for s in stretches),
-            mass=robot.mass,
-            inertia=robot.inertia,
             orders=wheel_orders(self.fit),
         )
 
@@ -156,7 +154,7 @@ class Screen:
 
     def _loss(self, space: Space, point: Array) -> float:
         """Return the squared error at a point, no sample counting beyond three deviations."""
-        return float(np.clip(self._errors_at(space, point) ** 2, 0.0, 9.0).sum())
+        return float(np.sum(influence(self._errors_at(space, point)) ** 2))
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from diffbot_sim.identification.evidence import Evidence, compare, delta_bic
 from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.stretches import Stretch
-from diffbot_sim.identification.trials import LIKELIHOOD_LEVEL, OUTDONE, Progress, Trial, try_all
+from diffbot_sim.identification.trials import OUTDONE, Progress, Trial, may_be_chance, try_all
 from diffbot_sim.physics.effects import Effect
 
 # Structures closer than this in BIC cannot be told apart.
@@ -94,11 +94,7 @@ def _prune(
                 known[rest] = reduce(fit, kind.name)
             smaller[kind.name] = known[rest]
             support[kind.name] = compare(known[rest], fit, held_out)
-        needless = [
-            name
-            for name, evidence in support.items()
-            if evidence.p_value * tried > LIKELIHOOD_LEVEL or evidence.delta_bic <= 0.0
-        ]
+        needless = [name for name, evidence in support.items() if may_be_chance(evidence, tried)]
         if not needless:
             return fit, smaller, support
         worst = min(needless, key=lambda name: support[name].delta_bic)

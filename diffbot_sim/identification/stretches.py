@@ -97,8 +97,8 @@ def _stretch(run: Run, begin: float, end: float) -> Stretch:
             f'record at least {4 * FEWEST_SAMPLES}, better two minutes.'
         )
     pose = None if odometry.pose is None else odometry.pose[part]
-    heading = _integral(time, twist[:, 1]) if pose is None else pose[:, 2]
-    travelled, turned = (_integral(odometry.time, rate)[part][0] for rate in odometry.twist.T)
+    heading = integral(time, twist[:, 1]) if pose is None else pose[:, 2]
+    travelled, turned = (integral(odometry.time, rate)[part][0] for rate in odometry.twist.T)
     start = replace(
         _start(time, twist, pose, float(heading[0])),
         travelled=float(travelled),
@@ -115,7 +115,18 @@ def _intercept(time: Array, twist: Array) -> tuple[Array, float]:
     return inverse[0] @ twist, float(np.linalg.norm(inverse[0]))
 
 
-def _integral(time: Array, rate: Array) -> Array:
+def travel(stretch: Stretch, twist: Array) -> Array:
+    """Return way [m] and turn [rad] since the wheels stood at angle 0, shape (k, 2).
+
+    twist, shape (k, 2), is held from each sample to the next.
+    """
+    steps = np.cumsum(np.diff(stretch.time)[:, None] * twist[:-1], axis=0)
+    first = np.array([stretch.start.travelled, stretch.start.turned])
+    return first + np.vstack([np.zeros(2), steps])
+
+
+def integral(time: Array, rate: Array) -> Array:
+    """Return the integral of a measured rate from the first stamp on, by trapezoids."""
     steps = np.diff(time) * 0.5 * (rate[1:] + rate[:-1])
     return np.concatenate([[0.0], np.cumsum(steps)])
 

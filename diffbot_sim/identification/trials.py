@@ -120,9 +120,14 @@ def _first_order(screen: Screen, kind: type[Effect], fall: float, p_value: float
     return Evidence(fall - cost, p_value, nan, nan, nan)
 
 
+def may_be_chance(evidence: Evidence, tried: int) -> bool:
+    """Say whether the likelihood allows an effect to be chance, with so many tried."""
+    return evidence.p_value * tried > LIKELIHOOD_LEVEL or evidence.delta_bic <= 0.0
+
+
 def judge(evidence: Evidence, tried: int) -> str:
     """Say whether an effect may enter, or why not."""
-    if evidence.p_value * tried > LIKELIHOOD_LEVEL or evidence.delta_bic <= 0.0:
+    if may_be_chance(evidence, tried):
         return CHANCE
     if evidence.p_block > BLOCK_LEVEL:
         return 'not beyond a disturbance that changes slowly'

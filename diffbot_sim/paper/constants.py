@@ -1,6 +1,6 @@
 """The constants that the paper does not print: chosen in constants.yaml, with reasons."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.resources import as_file, files
 from pathlib import Path
 
@@ -27,11 +27,7 @@ class Constants:
 
     def with_friction(self, kind: str) -> Model:
         """Return the robot with one of the basic friction models of Fig. 6."""
-        given = {name: getattr(self.friction, name) for name in _COEFFICIENTS}
-        return Model(self.robot, Friction(kind, **given))
-
-
-_COEFFICIENTS = ('normal_force', 'mu_static', 'mu_coulomb', 'mu_viscous', 'stribeck')
+        return Model(self.robot, replace(self.friction, model=kind))
 
 
 def load_constants(path: Path | None = None) -> Constants:

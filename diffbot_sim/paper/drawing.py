@@ -27,19 +27,20 @@ def save_figures(experiment: Experiment, series: Series, out: Path) -> None:
 
 
 def over(axes: Axes, series: Series, x: str, names: Sequence[str], y: str = '') -> None:
-    """Draw columns over another one; y labels the axis, or the only column does."""
+    """Draw columns over another one; y labels the axis, or the only column does.
+
+    Of panels that share x, only the lowest labels it.
+    """
     for name in names:
         axes.plot(series[x], series[name], label=name.rpartition(' [')[0])
     axes.set_xlabel(x)
     axes.set_ylabel(y or names[0])
+    axes.label_outer()
     if len(names) > 1:
         axes.legend()
 
 
 def stacked(figure: Figure, rows: int, height: float = 1.9) -> list[Axes]:
-    """Return axes one above the other that share x; only the lowest one labels it."""
+    """Return axes one above the other that share x."""
     figure.set_size_inches(figure.get_figwidth(), 0.6 + rows * height)
-    axes = figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
-    for upper in axes[:-1]:
-        upper.label_outer()
-    return list(axes)
+    return list(figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0])

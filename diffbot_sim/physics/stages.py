@@ -111,6 +111,12 @@ def scaled(law: Law, dry: float, viscous: float) -> Law:
 
 
 @compiled
+def within(force: float, limit: float) -> float:
+    """Return a force [N] cut off at ±limit."""
+    return min(max(force, -limit), limit)
+
+
+@compiled
 def pushed(load: Load, force: float, torque: float) -> Load:
     """Add a force [N] along x and a torque [N·m] to a load."""
     return Load(

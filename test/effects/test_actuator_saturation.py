@@ -21,5 +21,5 @@ def test_each_wheel_has_the_limit_of_its_own():
 
 
 def test_fits_start_below_the_largest_command():
-    starts = ActuatorSaturation.starts(Excitation(40.0, 60.0, 10.0, 0.4))
+    starts = ActuatorSaturation.starts(Excitation(40.0, 60.0))
     assert all(0.0 < limit < 40.0 for (limit,) in starts)

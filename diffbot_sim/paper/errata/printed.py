@@ -5,6 +5,7 @@ from math import exp
 import numpy as np
 
 from diffbot_sim.paper.constants import Constants
+from diffbot_sim.physics.friction import friction_force
 from diffbot_sim.physics.stages import Law
 from diffbot_sim.records import Array
 
@@ -29,15 +30,12 @@ def stick_test(constants: Constants, forces: tuple[float, float], until: float, 
     As the scheme has it, a resting wheel's friction balances its own traction force up to F_s,
     and a wheel whose speed changes sign is reset to 0. The signs of (13) are put right here.
     """
-    robot, law = constants.robot, constants.friction.law()
+    robot = constants.robot
     about = robot.half_separation**2 / robot.inertia
     coupling = np.array([[1.0, 1.0], [1.0, 1.0]]) / robot.mass
     coupling += about * np.array([[1.0, -1.0], [-1.0, 1.0]])
     force, speeds = np.array(forces), np.zeros((round(until / h) + 1, 2))
     for k, v in enumerate(speeds[:-1]):
-        rolling = law.coulomb + law.excess * np.exp(-law.stribeck * np.abs(v))
-        rolling = np.sign(v) * rolling + law.viscous * v
-        rubbing = np.where(v == 0.0, np.clip(force, -law.static, law.static), rolling)
-        after = v + h * coupling @ (force - rubbing)
+        after = v + h * coupling @ (force - friction_force(constants.friction, v, force))
         speeds[k + 1] = np.where(after * v < 0.0, 0.0, after)
     return speeds

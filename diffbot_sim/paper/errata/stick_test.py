@@ -69,7 +69,6 @@ def draw(series: Series, figure: Figure) -> None:
     upper, lower = stacked(figure, 2)
     over(upper, series, TIME, [HELD_OURS, *map(_creep, STEPS)], 'rolled [mm]')
     over(lower, series, TIME, [TORN_OURS, TORN_HELD], 'rolled [m]')
-    upper.label_outer()
 
 
 def claims(constants: Constants, series: Series) -> tuple[Claim, ...]:

@@ -33,7 +33,6 @@ def draw(series: Series, figure: Figure) -> None:
     upper, lower = stacked(figure, 2)
     over(upper, series, TIME, [FORCE, SPEED], 'F_ext [N], v [m/s]')
     over(lower, series, TIME, [FRICTION])
-    upper.label_outer()
 
 
 def coulomb_claims(constants: Constants, series: Series) -> tuple[Claim, ...]:

@@ -38,7 +38,6 @@ def draw(kinds: tuple[str, ...], series: Series, figure: Figure) -> None:
     for axes, kind in zip(rows, kinds, strict=True):
         over(axes, series, 'v [m/s]', [_column(kind)], 'F_fr [N]')
         axes.set_title(kind, fontsize='medium', loc='left')
-        axes.label_outer()
 
 
 def claims(constants: Constants, series: Series) -> tuple[Claim, ...]:

@@ -8,6 +8,7 @@ from diffbot_sim.paper.constants import Constants
 from diffbot_sim.paper.drawing import over, stacked
 from diffbot_sim.paper.experiment import Claim, Experiment, Series
 from diffbot_sim.physics import Model, Plant
+from diffbot_sim.physics.friction import friction_force
 from diffbot_sim.records import Array
 
 TICK, UNTIL = 0.01, 12.0
@@ -65,7 +66,6 @@ def draw(series: Series, figure: Figure) -> None:
         over(force, series, TIME, [f'{what}: {column}' for what in whats[:2]], column)
     for axes in rows:
         axes.legend().remove()
-        axes.label_outer()
     handles, _ = rows[0].get_legend_handles_labels()
     figure.legend(handles, [WITH, WITHOUT, 'reference'], loc='outside upper center', ncols=3)
 
@@ -81,8 +81,8 @@ def claims(constants: Constants, series: Series) -> tuple[Claim, ...]:
         settled |= (series[TIME] > end - SETTLED) & (series[TIME] < end - 0.5 * TICK)
     most = float(np.abs(wanted).max())
     off, off_free = (float(np.abs(s - wanted)[settled].max()) for s in (rubbed, free))
-    law, v = constants.friction.law(), wanted[settled] * constants.robot.wheel_radius
-    demand = law.coulomb + law.excess * np.exp(-law.stribeck * v) + law.viscous * v
+    v = wanted[settled] * constants.robot.wheel_radius
+    demand = friction_force(constants.friction, v, 0.0 * v)
     return (
         Claim(
             'Fig. 13',

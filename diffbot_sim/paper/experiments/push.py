@@ -45,7 +45,6 @@ def draw_motion(series: Series, figure: Figure) -> None:
     upper, lower = stacked(figure, 2)
     over(upper, series, TIME, [V])
     over(lower, series, TIME, [FRICTION_RIGHT, FRICTION_LEFT], 'F_fr [N]')
-    upper.label_outer()
 
 
 def draw_path(series: Series, figure: Figure) -> None:

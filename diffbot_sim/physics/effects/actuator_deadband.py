@@ -5,19 +5,15 @@ from dataclasses import dataclass
 from diffbot_sim.parameters import parameter
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.effects.effect import Effect
-from diffbot_sim.physics.stages import Motion, Stage, Traction
-
-
-@compiled
-def outside(force: float, band: float) -> float:
-    """Take from a force [N] what of it lies within the band."""
-    return force - min(max(force, -band), band)
+from diffbot_sim.physics.stages import Motion, Stage, Traction, within
 
 
 @compiled
 def deadband(at: Motion, traction: Traction, band: float) -> Traction:
     """Let each wheel feel only what exceeds the band."""
-    return Traction(outside(traction.right, band), outside(traction.left, band))
+    return Traction(
+        traction.right - within(traction.right, band), traction.left - within(traction.left, band)
+    )
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from diffbot_sim.parameters import parameter
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.effects.effect import Effect, Excitation
-from diffbot_sim.physics.stages import Motion, Stage, Traction
+from diffbot_sim.physics.stages import Motion, Stage, Traction, within
 
 # Shares of the largest command at which the limit may lie.
 SHARES = (0.9, 0.75, 0.6, 0.4)
@@ -14,9 +14,7 @@ SHARES = (0.9, 0.75, 0.6, 0.4)
 @compiled
 def clipped(at: Motion, traction: Traction, limit: float) -> Traction:
     """Give at most the limit, either way."""
-    return Traction(
-        min(max(traction.right, -limit), limit), min(max(traction.left, -limit), limit)
-    )
+    return Traction(within(traction.right, limit), within(traction.left, limit))
 
 
 @dataclass(frozen=True)

@@ -11,14 +11,12 @@ from diffbot_sim.physics.stages import Stage, Traction
 class Excitation(NamedTuple):
     """What a recorded drive offers, for fits whose starting points depend on it.
 
-    force: largest command [N]; duration: of the longest run [s]; mass [kg] and inertia [kg·m²] as
-    fitted so far; orders: cycles per wheel revolution at which the residual is strongest.
+    force: largest command [N]; duration: of the longest run [s]; orders: cycles per wheel
+    revolution at which the residual is strongest.
     """
 
     force: float
     duration: float
-    mass: float
-    inertia: float
     orders: tuple[float, ...] = ()
 
 

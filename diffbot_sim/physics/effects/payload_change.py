@@ -67,4 +67,4 @@ class PayloadChange(Effect):
         """Try moments all along the run."""
         count = int(min(max(drive.duration / SPACING, 4), MOST_TRIED))
         moments = np.linspace(0.0, drive.duration, count + 2)[1:-1]
-        return tuple((0.1 * drive.mass, 0.1 * drive.inertia, float(m)) for m in moments)
+        return tuple((*cls.guesses[0][:2], float(moment)) for moment in moments)

@@ -27,12 +27,6 @@ def ripple(
     )
 
 
-# A fit follows a slope in the order only from nearby, so likely orders are tried one by one,
-# with each wheel and phase on its own.
-ORDERS = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
-ALONE = ((0.3, 0.0, 0.0, 0.0), (0.0, 0.3, 0.0, 0.0), (0.0, 0.0, 0.3, 0.0), (0.0, 0.0, 0.0, 0.3))
-
-
 def amplitude(meaning: str) -> float:
     """Declare one of the four amplitudes [N]."""
     value: float = parameter(0.0, unit='N', low=-1e4, high=1e4, scale=0.2, meaning=meaning)
@@ -52,7 +46,7 @@ class WheelRipple(Effect):
     source = 'cogging torque of permanent-magnet motors (Hanselman), errors of gear meshing'
     stage = Stage.ACTUATOR
     kernel = ripple
-    guesses = tuple((order, *only) for order in ORDERS for only in ALONE)
+    guesses = ((1.0, 0.3, 0.0, 0.0, 0.3), (12.0, 0.0, 0.3, 0.3, 0.0))
     shape = ('order',)
     excitation = 'slow, steady rolling over many turns of each wheel'
 
