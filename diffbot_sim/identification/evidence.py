@@ -103,7 +103,7 @@ def sandwich(jacobian: Array, errors: Array) -> Array:
 def block_scores(jacobian: Array, errors: Array) -> Array:
     """Return J'e of each block, shape (BLOCKS, p): jacobian (n, ..., p), errors (n, ...)."""
     parts = (np.array_split(values, BLOCKS) for values in (jacobian, influence(errors)))
-    return np.array([np.einsum('...p,...->p', j, e) for j, e in zip(*parts, strict=True)])
+    return np.array([np.tensordot(e, j, e.ndim) for j, e in zip(*parts, strict=True)])
 
 
 def wald(fit: Fit, indices: Sequence[int]) -> float:

@@ -1,11 +1,11 @@
 """Fits: robust least squares on whitened prediction errors, noise model included."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 from os import cpu_count
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -27,6 +27,8 @@ WORST = 1e9
 # Step of finite differences, in coordinates of order one.
 DIFFERENCE = 1e-5
 Errors = Callable[[Array, Array], Array]
+Item = TypeVar('Item')
+Result = TypeVar('Result')
 _POOL = ThreadPoolExecutor(max_workers=cpu_count())
 
 
@@ -78,6 +80,11 @@ class Fit:
 
         point = np.concatenate([self.u, self.gains])
         return np.stack(_columns(errors, point, errors(point)), axis=-1)
+
+
+def each(work: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
+    """Return work done on every item, on all cores; work must not call this itself."""
+    return list(_POOL.map(work, items))
 
 
 def huber(errors: Array) -> Array:
@@ -234,4 +241,4 @@ def _columns(errors: Callable[[Array], Array], at: Array, base: Array) -> list[A
         moved[index] += DIFFERENCE
         return np.asarray((errors(moved) - base) / DIFFERENCE)
 
-    return list(_POOL.map(column, range(len(at))))
+    return each(column, range(len(at)))

@@ -2,13 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
+from operator import itemgetter
 
 import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.coordinates import Space, point_of
-from diffbot_sim.identification.fitting import Fit, influence, whitened
+from diffbot_sim.identification.fitting import Fit, each, influence, whitened
 from diffbot_sim.identification.periodicity import wheel_orders
 from diffbot_sim.physics.effects import Effect, Excitation
 from diffbot_sim.records import Array
@@ -82,11 +83,11 @@ class Screen:
         space = Space(self.fit.space.declared, (*self.fit.space.kinds, kind))
         starts = [point_of(kind, values) for values in kind.starts(self.drive)]
         if kind.shape:
-            options = [self._amounts(space, kind, start) for start in starts]
+            options = each(partial(self._amounts, space, kind), starts)
         else:
             neutral = point_of(kind, [spec.default for spec in kind.specs()])
-            options = [self._amounts(space, kind, neutral)]
-            options += [self._as_it_stands(space, start) for start in starts]
+            options = each(partial(self._as_it_stands, space), starts)
+            options.append(self._amounts(space, kind, neutral))
         ratio, shapes = max(option.fall for option in options), len(starts) if kind.shape else 1
         return Score(
             ratio,
@@ -120,23 +121,22 @@ class Screen:
         change = np.zeros(len(point))
         change[[size + i for i in turned]] = amount
         change[:size] = self.adaptation(slopes, amount)[:size]
-        return _Option(fall, self._least(space, point, change), _is_seen(flat, slopes))
+        return _Option(fall, self._shares(space, point, change), _is_seen(flat, slopes))
 
-    def _least(self, space: Space, point: Array, change: Array) -> Array:
-        """Return the share of a change, with or without what it does to the others, that fits."""
+    def _shares(self, space: Space, point: Array, change: Array) -> tuple[Array, ...]:
+        """Return points on the way along a change, with and without what it does to others."""
         alone = np.where(np.arange(len(point)) < len(self.fit.u), 0.0, change)
         bounds = space.bounds()
-        options = [
+        return tuple(
             np.clip(point + share * by, *bounds) for share in SHARES for by in (change, alone)
-        ]
-        return min(options, key=lambda option: self._loss(space, option))
+        )
 
     def _as_it_stands(self, space: Space, start: Array) -> '_Option':
         """Return what values that are far from neutral explain."""
         point = np.concatenate([self.fit.u, start])
         change = (self._errors_at(space, point) - self.fit.whitened)[..., None]
         fall, _, flat = self.explained(change)
-        return _Option(fall, point, _is_seen(flat, change))
+        return _Option(fall, (point,), _is_seen(flat, change))
 
     def _errors_at(self, space: Space, point: Array) -> Array:
         return whitened(self.fit.stretches, space.model(point), self.fit.gains, self.fit.sigma)
@@ -148,9 +148,16 @@ class Screen:
 
     def _best(self, space: Space, options: Sequence['_Option']) -> tuple[Array, ...]:
         """Return the point that promises most, and of the next ones that with the least error."""
-        first, *others = sorted(options, key=lambda option: -option.fall)[:COMPARED]
-        others.sort(key=lambda option: self._loss(space, option.point))
-        return tuple(option.point for option in (first, *others[: FOLLOWED - 1]))
+        promising = sorted(options, key=lambda option: -option.fall)[:COMPARED]
+        first, *others = each(partial(self._least, space), promising)
+        others.sort(key=itemgetter(0))
+        return tuple(point for _, point in (first, *others[: FOLLOWED - 1]))
+
+    def _least(self, space: Space, option: '_Option') -> tuple[float, Array]:
+        """Return the least error of an option's points, and the point that has it."""
+        losses = [self._loss(space, point) for point in option.points]
+        best = int(np.argmin(losses))
+        return losses[best], option.points[best]
 
     def _loss(self, space: Space, point: Array) -> float:
         """Return the squared error at a point, no sample counting beyond three deviations."""
@@ -159,10 +166,10 @@ class Screen:
 
 @dataclass(frozen=True)
 class _Option:
-    """A point at which a full fit may begin, and how much it promises."""
+    """Points at one of which a full fit may begin, and how much that promises."""
 
     fall: float
-    point: Array
+    points: tuple[Array, ...]
     seen: bool
 
 

@@ -8,7 +8,7 @@ from scipy import stats
 
 from diffbot_sim.identification.bases import Basis, bases
 from diffbot_sim.identification.evidence import block_gain, sandwich, wald_p
-from diffbot_sim.identification.fitting import GAIN_LIMITS, Fit, huber, whitened
+from diffbot_sim.identification.fitting import GAIN_LIMITS, Fit, each, huber, whitened
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.screening import Screen
@@ -125,12 +125,12 @@ def _try(screen: Screen, basis: Basis) -> Dependence:
 def sensitivity(fit: Fit, stretches: Sequence[Stretch], basis: Basis) -> Array:
     """Return the derivative of whitened errors by the amounts of a basis, shape (n, 2, q)."""
     base = whitened(stretches, fit.model, fit.gains, fit.sigma)
-    columns = []
-    for index in range(basis.size):
-        pushes = [basis.push(stretch_index, index) for stretch_index in range(len(stretches))]
-        moved = whitened(stretches, fit.model, fit.gains, fit.sigma, pushes)
-        columns.append(moved - base)
-    return np.stack(columns, axis=-1)
+
+    def column(index: int) -> Array:
+        pushes = [basis.push(place, index) for place in range(len(stretches))]
+        return whitened(stretches, fit.model, fit.gains, fit.sigma, pushes) - base
+
+    return np.stack(each(column, range(basis.size)), axis=-1)
 
 
 def realised(fit: Fit, dependence: Dependence) -> Dependence:

@@ -1,6 +1,6 @@
 """How this room compiles: small functions into their callers, entries once, kept on disk."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -16,26 +16,28 @@ def compiled(function: Function) -> Function:
     return result
 
 
-def entry(signature: Any) -> Callable[[Function], Function]:
+def entry(signature: Any, key: str = '') -> Callable[[Function], Function]:
     """Compile a function that Python calls, for one signature, and keep the result on disk.
 
     numba drops a kept result when the function's own file changes, but does not look at the
-    functions that it calls; so the name under which it is kept tells the state of the whole room.
+    functions that it calls; so the name under which it is kept tells the state of the whole room,
+    and by a key that of whatever else it calls.
     """
 
     def decorate(function: Function) -> Function:
-        function.__qualname__ += '_' + _SOURCES
+        function.__qualname__ += f'_{_SOURCES}{key}'
         result: Function = njit(signature, cache=True, nogil=True, error_model='numpy')(function)
         return result
 
     return decorate
 
 
-def _digest_of_room() -> str:
-    digest = sha256()
-    for path in sorted(Path(__file__).parent.glob('*.py')):
+def digest_of(names: Iterable[str], files: Iterable[Path]) -> str:
+    """Return a short text that changes with any of the names or with what any file holds."""
+    digest = sha256('\n'.join(names).encode())
+    for path in sorted(files):
         digest.update(path.read_bytes())
     return digest.hexdigest()[:12]
 
 
-_SOURCES = _digest_of_room()
+_SOURCES = digest_of([], Path(__file__).parent.glob('*.py'))

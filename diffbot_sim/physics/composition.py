@@ -1,13 +1,17 @@
 """Chains the kernels of a set of effects into one compiled function for each stage."""
 
+import sys
 from collections.abc import Callable
 from functools import cache
+from pathlib import Path
+from types import FunctionType
 from typing import Any, NamedTuple
+from uuid import uuid4
 
-from numba import njit, types
+from numba import types
 from numba.np.unsafe.ndarray import to_fixed_tuple
 
-from diffbot_sim.physics.compiled import compiled
+from diffbot_sim.physics.compiled import Function, compiled, digest_of, entry
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.instant import (
     Inputs,
@@ -52,10 +56,26 @@ FUNCTION_TYPES = (
 
 @cache
 def compose(kinds: tuple[type[Effect], ...]) -> tuple[Laws, Settle]:
-    """Compile the functions for a set of effects given in order of evaluation."""
-    links = _links(kinds)
+    """Compile the functions for a set of effects, given in order of evaluation."""
+    links, key = _links(kinds), _key(kinds)
     driving = links[Stage.COMMAND] + links[Stage.ACTUATOR]
-    return _compile_laws(links, driving), _compile_settle(driving)
+    chains = {
+        'drive': _chain(driving),
+        'rub': _chain(links[Stage.WHEEL_FRICTION]),
+        'push': _chain(links[Stage.BODY_LOAD]),
+        'weigh': _chain(links[Stage.INERTIA]),
+    }
+    laws = entry(LAWS_SIGNATURE, key)(_bound(_laws, chains))
+    return laws, entry(SETTLE_SIGNATURE, key)(_bound(_settle, {'live': _settle_chain(driving)}))
+
+
+def _key(kinds: tuple[type[Effect], ...]) -> str:
+    """Return what tells a set from others, the state of its sources included."""
+    files = {getattr(sys.modules[kind.__module__], '__file__', None) for kind in kinds}
+    known = [Path(file) for file in files if file is not None]
+    if len(known) < len(files):  # in a notebook a name may stand for another law at any time
+        return uuid4().hex
+    return digest_of([kind.__qualname__ for kind in kinds], known)
 
 
 def _links(kinds: tuple[type[Effect], ...]) -> dict[Stage, tuple[_Link, ...]]:
@@ -67,32 +87,6 @@ def _links(kinds: tuple[type[Effect], ...]) -> dict[Stage, tuple[_Link, ...]]:
         links[kind.stage] += (link,)
         first, state = last, last_state
     return links
-
-
-def _compile_laws(links: dict[Stage, tuple[_Link, ...]], driving: tuple[_Link, ...]) -> Laws:
-    drive, rub = _chain(driving), _chain(links[Stage.WHEEL_FRICTION])
-    push, weigh = _chain(links[Stage.BODY_LOAD]), _chain(links[Stage.INERTIA])
-
-    @njit(LAWS_SIGNATURE, nogil=True, error_model='numpy')
-    def laws(params, states, at, inputs, right, left):  # type: ignore[no-untyped-def]
-        traction = drive(params, states, at, Traction(inputs.right, inputs.left))
-        load = push(params, states, at, Load(inputs.force, inputs.torque, 0.0, 0.0, 0.0))
-        balance = weigh(params, states, at, nominal_balance(params, traction, load))
-        law_right = rub(params, states, at, nominal_law(params, 1.0, right))
-        law_left = rub(params, states, at, nominal_law(params, -1.0, left))
-        return gather(params, traction, load, balance, law_right, law_left)
-
-    return laws
-
-
-def _compile_settle(driving: tuple[_Link, ...]) -> Settle:
-    chain = _settle_chain(driving)
-
-    @njit(SETTLE_SIGNATURE, nogil=True, error_model='numpy')
-    def settle(params, states, at, inputs):  # type: ignore[no-untyped-def]
-        chain(params, states, at, Traction(inputs.right, inputs.left))
-
-    return settle
 
 
 def _chain(links: tuple[_Link, ...]) -> Any:
@@ -137,3 +131,30 @@ def _settle_chain(links: tuple[_Link, ...]) -> Any:
         return value
 
     return settle
+
+
+# The chains of a set without effects; _bound puts those of a set in their place.
+drive = rub = push = weigh = live = _unchanged
+
+
+def _laws(params, states, at, inputs, right, left):  # type: ignore[no-untyped-def]
+    """Evaluate the stages of a set, one after the other: the body of every `Laws`."""
+    traction = drive(params, states, at, Traction(inputs.right, inputs.left))
+    load = push(params, states, at, Load(inputs.force, inputs.torque, 0.0, 0.0, 0.0))
+    balance = weigh(params, states, at, nominal_balance(params, traction, load))
+    law_right = rub(params, states, at, nominal_law(params, 1.0, right))
+    law_left = rub(params, states, at, nominal_law(params, -1.0, left))
+    return gather(params, traction, load, balance, law_right, law_left)
+
+
+def _settle(params, states, at, inputs):  # type: ignore[no-untyped-def]
+    """Move on the states of a set: the body of every `Settle`."""
+    live(params, states, at, Traction(inputs.right, inputs.left))
+
+
+def _bound(body: Function, chains: dict[str, Any]) -> Function:
+    """Return a body with the chains of a set.
+
+    As globals, not as a closure: numba would not recognise a closure on disk.
+    """
+    return FunctionType(body.__code__, {**globals(), **chains}, body.__name__)
