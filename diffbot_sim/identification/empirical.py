@@ -9,7 +9,7 @@ from diffbot_sim.identification.comparison import norm, run_free
 from diffbot_sim.identification.fitting import Fit, fit_prediction
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.stretches import Stretch
-from diffbot_sim.physics.effects.empirical_force import POINTS, VARIABLES, EmpiricalForce
+from diffbot_sim.physics.effects.empirical_force import AXES, POINTS, VARIABLES, EmpiricalForce
 from diffbot_sim.physics.model import Model
 
 # The term is kept when it lowers the held-out error, v and ω together, by this share.
@@ -22,7 +22,7 @@ def with_term(fit: Fit, structure: Structure, held_out: Sequence[Stretch]) -> Fi
     Judged by the free-running error on held-out data; None where no effect can look at the
     variable, or where the error does not fall.
     """
-    if structure.variable not in VARIABLES:
+    if structure.variable not in VARIABLES or structure.axis not in AXES:
         return None
     declared = fit.space.declared.with_effect(table_of(structure))
     space = replace(fit.space, declared=declared)

@@ -8,6 +8,7 @@ from diffbot_sim.identification.agreement import agreement
 from diffbot_sim.identification.calibration import calibrate, simulation_error
 from diffbot_sim.identification.comparison import compare_models, errors_of
 from diffbot_sim.identification.coordinates import Space
+from diffbot_sim.identification.doubt import doubt
 from diffbot_sim.identification.empirical import table_of, with_term
 from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction, fit_simulation
 from diffbot_sim.identification.horizons import horizons
@@ -21,11 +22,9 @@ from diffbot_sim.identification.result import (
     Identification,
     Structure,
 )
-from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.selection import Selection, select
 from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch, split, whole
-from diffbot_sim.identification.structure import describe, find_structure, outdone
 from diffbot_sim.identification.trials import UNSEEN, Trial
 from diffbot_sim.identification.uncertainty import estimates
 from diffbot_sim.physics.effects import Effect, laws, library
@@ -62,7 +61,7 @@ def identify(
     recalibrated = min(recalibrated, again, key=simulation_error)
     selection = select(base, tried, held_out, progress)
     progress('looking for structure that is left')
-    selection, unexplained = _doubt(selection, held_out)
+    selection, unexplained = doubt(selection, held_out)
     final = _for_simulation(selection, recalibrated)
     closed = unexplained and with_term(final, unexplained, held_out)
     final = closed or final
@@ -104,27 +103,6 @@ def _candidates(declared: Model, kinds: Sequence[type[Effect]] | None) -> tuple[
     present = {effect.name for effect in declared.effects}
     chosen = laws().values() if kinds is None else kinds
     return tuple(kind for kind in chosen if kind.name not in present)
-
-
-def _doubt(
-    selection: Selection, held_out: Sequence[Stretch]
-) -> tuple[Selection, Structure | None]:
-    """Withdraw names that a free-form force outdoes; return what is left without a name.
-
-    Where more is left than the weakest name explains, that name goes too.
-    """
-    for kind in selection.final.space.kinds:
-        better = outdone(selection.without[kind.name], selection.final, kind)
-        if better is not None:
-            return selection.withdrawn(kind.name), describe(better, selection.final)
-    left = find_structure(Screen(selection.final), held_out)
-    if left is None or not selection.support:
-        return selection, left
-    weakest = min(selection.support, key=lambda name: selection.support[name].delta_bic)
-    if selection.support[weakest].delta_bic > left.worth:
-        return selection, left
-    selection = selection.withdrawn(weakest)
-    return selection, find_structure(Screen(selection.final), held_out) or left
 
 
 def _for_simulation(selection: Selection, recalibrated: Fit) -> Fit:

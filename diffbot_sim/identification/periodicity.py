@@ -1,4 +1,4 @@
-"""At which periods of the wheel angle a residual repeats: cheap, before anything is simulated."""
+"""At which periods of time or wheel angle a residual repeats: cheap, before any simulation."""
 
 import numpy as np
 
@@ -8,6 +8,8 @@ from diffbot_sim.records import Array
 
 # Orders [cycles per revolution] that are looked at, and how many of the strongest are kept.
 LOWEST, HIGHEST, KEPT = 0.2, 60.0, 4
+# Cycles per second that are looked at, and cycles in the longest run below which none is.
+HIGHEST_RATE, FEWEST_CYCLES = 5.0, 4.0
 # Points per line width of the spectrum; samples that a cycle needs at the usual speed.
 FINENESS, SAMPLES_PER_CYCLE = 3.0, 3.0
 # Beside a peak, this many line widths are its side lobes.
@@ -31,6 +33,26 @@ def wheel_orders(fit: Fit) -> tuple[float, ...]:
     if len(orders) < 3:
         return ()
     return _peaks(orders, _power(orders, angles, weights), SIDE_LOBES * FINENESS * spacing)
+
+
+def rates(fit: Fit) -> tuple[float, ...]:
+    """Return the cycles per second at which the innovations are strongest."""
+    time = np.concatenate([stretch.time for stretch in fit.stretches])
+    errors = np.concatenate(
+        [
+            found.innovation * stretch.used[:, None] / fit.sigma
+            for stretch, found in zip(fit.stretches, predictions(fit, fit.stretches), strict=True)
+        ]
+    )
+    spacing = 1.0 / (FINENESS * max(float(np.ptp(s.time)) for s in fit.stretches))
+    interval = max(stretch.interval for stretch in fit.stretches)
+    highest = min(HIGHEST_RATE, 1.0 / (SAMPLES_PER_CYCLE * interval))
+    # Slower than this it would be a drift.
+    cycles = np.arange(FEWEST_CYCLES * FINENESS * spacing, highest, spacing)
+    if len(cycles) < 3:
+        return ()
+    turns = np.repeat(2.0 * np.pi * time[:, None], 2, axis=1)
+    return _peaks(cycles, _power(cycles, turns, errors), SIDE_LOBES * FINENESS * spacing)
 
 
 def _by_wheel(fit: Fit) -> tuple[Array, Array]:
@@ -62,6 +84,14 @@ def _peaks(orders: Array, power: Array, apart: float) -> tuple[float, ...]:
     places = 1 + np.flatnonzero(inner)
     kept: list[float] = []
     for place in places[np.argsort(power[places])[::-1]]:
-        if all(abs(orders[place] - other) > apart for other in kept):
-            kept.append(float(orders[place]))
+        order = float(orders[place] + (orders[1] - orders[0]) * _summit(power[place - 1 :][:3]))
+        if all(abs(order - other) > apart for other in kept):
+            kept.append(order)
     return tuple(kept[:KEPT])
+
+
+def _summit(power: Array) -> float:
+    """Return where between -1 and 1 the parabola through three logarithms is highest."""
+    left, middle, right = np.log(np.maximum(power, 1e-300))
+    bend = left - 2.0 * middle + right
+    return float(0.5 * (left - right) / bend) if bend < 0.0 else 0.0

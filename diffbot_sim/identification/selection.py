@@ -36,10 +36,11 @@ class Selection:
 
     def withdrawn(self, name: str) -> 'Selection':
         """Return the selection without one of the effects chosen."""
-        kept = [key for key in self.support if key != name]
+        kept, final = [key for key in self.support if key != name], self.without[name]
         return replace(
             self,
-            final=self.without[name],
+            final=final,
+            without={key: reduce(final, key) for key in kept},
             trials=tuple(
                 replace(trial, outcome=OUTDONE) if trial.kind.name == name else trial
                 for trial in self.trials

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import stats
 
-from diffbot_sim.identification.bases import Basis, bases
+from diffbot_sim.identification.bases import Basis, again, bases
 from diffbot_sim.identification.evidence import block_gain, sandwich, wald_p
 from diffbot_sim.identification.fitting import GAIN_LIMITS, Fit, each, huber, whitened
 from diffbot_sim.identification.predictor import MAX_STEP
@@ -14,31 +14,22 @@ from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch
-from diffbot_sim.physics.effects import Effect
+from diffbot_sim.identification.variables import VARIABLES
 from diffbot_sim.records import Array
 
 # As strict as the entry of an effect: chance over all dependences tried, disturbances, held out.
 LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_LEVEL = 1e-3, 1e-2, 0.05
-# By how much in BIC a free form must beat an effect before the effect's name is withdrawn.
-OUTDONE = 10.0
-# An effect that takes this share of its worth from a free form stands or falls with it.
-TAKEN_SHARE = 0.5
 # How many of the dependences are put to the test, and the shares of them that are tried.
 FOLLOWED, SHARES = 4, (1.0, 0.5, 0.25, 0.1)
+# Parts of the runs, and into how many groups of parts they are dealt in turn.
+PARTS, FOLDS = 40, 5
 # Largest fall of the loss that one held-out sample may stand for.
 MOST_OF_SAMPLE = 4.0
-WORDS = {
-    'v': 'the speed',
-    'omega': 'the yaw rate',
-    'heading': 'the heading',
-    'wheel_angle': 'the wheel angle',
-    'time': 'time',
-    'traction': 'the commanded force',
-    'command_change': 'recent changes of the command',
-    'wheel_force': "each wheel's commanded force",
-    'force_over_time': 'time, in proportion to the commanded force',
-    'place_x': 'where along x it rolls, against the motion',
-    'place_y': 'where along y it rolls, against the motion',
+FORCES = {
+    'v': ('force along the robot', 'N'),
+    'omega': ('torque', 'N·m'),
+    'wheels': ('force on each wheel', 'N'),
+    'difference': ('force on one wheel and against it on the other', 'N'),
 }
 
 
@@ -48,7 +39,8 @@ class Dependence:
 
     fall: of the deviance, to first order until it is realised; amounts: coefficients of the basis
     in its units; adaptation: how the free parameters shift with them; spread: covariance of the
-    amounts; p_block: as for effects.
+    amounts; p_block: as for effects; p_folds: the chance of what amounts from other parts of the
+    runs predict of each part.
     """
 
     basis: Basis
@@ -57,21 +49,23 @@ class Dependence:
     adaptation: Array
     spread: Array
     p_block: float
+    p_folds: float
 
     @property
     def p_value(self) -> float:
         """The chance of such a fall."""
-        return float(stats.chi2.sf(self.fall, len(self.amounts)))
+        looked_at = VARIABLES[self.basis.variable].form.looked_at
+        return looked_at * float(stats.chi2.sf(self.fall, len(self.amounts)))
 
 
 def dependences(screen: Screen) -> list[Dependence]:
     """Try every basis on the residual of a fit, the strongest first."""
     fit = screen.fit
-    tried = [_try(screen, basis) for basis in bases(fit, fit.stretches)]
+    tried = [explained_by(screen, basis) for basis in bases(fit, fit.stretches)]
     return sorted(tried, key=lambda d: d.fall - len(d.amounts) * np.log(fit.whitened.size))[::-1]
 
 
-def find_structure(screen: Screen, held_out: Sequence[Stretch]) -> Structure | None:
+def find_dependence(screen: Screen, held_out: Sequence[Stretch]) -> Dependence | None:
     """Return the strongest dependence that is beyond doubt, or None."""
     found = dependences(screen)
     for first_order in found[:FOLLOWED]:
@@ -79,35 +73,14 @@ def find_structure(screen: Screen, held_out: Sequence[Stretch]) -> Structure | N
         beyond_chance = dependence.p_value * len(found) < LIKELIHOOD_LEVEL
         if not beyond_chance or dependence.p_block > BLOCK_LEVEL:
             continue
-        if _held_out_chance(screen.fit, dependence, held_out) < HELD_OUT_LEVEL:
-            return describe(dependence, screen.fit)
+        seen_elsewhere = _held_out_chance(screen.fit, dependence, held_out)
+        if 2.0 * min(seen_elsewhere, dependence.p_folds) < HELD_OUT_LEVEL:
+            return dependence
     return None
 
 
-def outdone(rest: Fit, final: Fit, kind: type[Effect]) -> Dependence | None:
-    """Return a free-form force of which an effect captures a part only, if there is one.
-
-    rest: the fit that lacks the effect, final: the one that has it. An effect of the right kind
-    needs fewer parameters than any free form, and leaves nothing of it. One that only resembles
-    what acts is outdone, takes its worth from the free form, and leaves the rest of it. Structure
-    that is there with and without the effect says nothing against its name. All to first order,
-    so that both sides of the comparison err alike.
-    """
-    screen = Screen(rest)
-    size = float(np.log(rest.whitened.size))
-    worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
-    named = max(worth, screen.score(kind).ratio) - len(kind.specs()) * size
-    best = dependences(screen)[0]
-    cost = len(best.amounts) * size
-    if best.fall - cost < named + OUTDONE or best.p_block > BLOCK_LEVEL:
-        return None
-    basis = next(iter(bases(final, final.stretches, best.basis)))
-    left = _try(Screen(final), basis).fall
-    taken = best.fall - left
-    return best if left - cost > OUTDONE and taken > TAKEN_SHARE * worth else None
-
-
-def _try(screen: Screen, basis: Basis) -> Dependence:
+def explained_by(screen: Screen, basis: Basis) -> Dependence:
+    """Return how much the functions of a basis explain of a residual, to first order."""
     slopes = sensitivity(screen.fit, screen.fit.stretches, basis)
     fall, amounts, flat = screen.explained(slopes)
     rest = screen.residual + flat @ amounts
@@ -119,7 +92,29 @@ def _try(screen: Screen, basis: Basis) -> Dependence:
         screen.adaptation(slopes, amounts),
         spread,
         wald_p(amounts, spread),
+        _folds_chance(flat, screen.residual),
     )
+
+
+def _folds_chance(flat: Array, errors: Array) -> float:
+    """Return the chance of the fall of the loss in each part of a run, by the other parts.
+
+    Parts lie between each other: where a robot never comes back, or time has gone, the end of a
+    run cannot confirm what the beginning says.
+    """
+    parts = np.arange(len(errors)) * PARTS // len(errors) % FOLDS
+    gain = np.empty(len(errors))
+    for fold in range(FOLDS):
+        inside = parts == fold
+        amounts, *_ = np.linalg.lstsq(flat[~inside], -errors[~inside], rcond=1e-8)
+        gain[inside] = huber(errors[inside]) - huber(errors[inside] + flat[inside] @ amounts)
+    return _chance(gain.reshape(-1, 2))
+
+
+def _chance(gain: Array) -> float:
+    """Return the chance of gains of samples, shape (n, 2)."""
+    # Where a wheel starts or stops a small force decides much: no sample may say more than this.
+    return block_gain(np.clip(gain, -MOST_OF_SAMPLE, MOST_OF_SAMPLE).sum(axis=1))[1]
 
 
 def sensitivity(fit: Fit, stretches: Sequence[Stretch], basis: Basis) -> Array:
@@ -161,7 +156,7 @@ def _acting(
     model = fit.space.model(np.clip(fit.u + adapted[:size], *fit.space.bounds()))
     gains = np.clip(fit.gains + adapted[size:], *GAIN_LIMITS)
     begun = restarted(model, stretches, MAX_STEP) if stretches is not fit.stretches else stretches
-    basis = next(iter(bases(fit, begun, dependence.basis)))
+    basis = again(dependence.basis, fit, begun)
     pushes = [basis.total(share * dependence.amounts, index) for index in range(len(begun))]
     return whitened(begun, model, gains, fit.sigma, pushes)
 
@@ -170,9 +165,7 @@ def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretc
     """Return the chance of the fall of the held-out loss."""
     begun = restarted(fit.model, held_out, MAX_STEP)
     before = huber(whitened(begun, fit.model, fit.gains, fit.sigma))
-    gain = before - huber(_acting(fit, dependence, held_out))
-    # Where a wheel starts or stops a small force decides much: no sample may say more than this.
-    return block_gain(np.clip(gain, -MOST_OF_SAMPLE, MOST_OF_SAMPLE).sum(axis=1))[1]
+    return _chance(before - huber(_acting(fit, dependence, held_out)))
 
 
 def describe(dependence: Dependence, fit: Fit) -> Structure:
@@ -180,11 +173,11 @@ def describe(dependence: Dependence, fit: Fit) -> Structure:
     basis = dependence.basis
     knots, curve, error = basis.curve(dependence.amounts, dependence.spread)
     strength = basis.strength(dependence.amounts)
-    kind, unit = ('force along the robot', 'N') if basis.axis == 'v' else ('torque', 'N·m')
+    kind, unit = FORCES[basis.axis]
     return Structure(
         description=(
             f'a {kind} of {strength:.3g} {unit} rms that depends on '
-            f'{WORDS[basis.variable]} and that no effect of the library accounts for'
+            f'{VARIABLES[basis.variable].words} and that no effect of the library accounts for'
         ),
         axis=basis.axis,
         variable=basis.variable,
@@ -193,5 +186,10 @@ def describe(dependence: Dependence, fit: Fit) -> Structure:
         knots=knots,
         force=curve,
         force_error=error,
-        worth=dependence.fall - basis.size * float(np.log(fit.whitened.size)),
+        worth=worth_of(dependence, fit),
     )
+
+
+def worth_of(dependence: Dependence, fit: Fit) -> float:
+    """Return by how much a dependence lowers the BIC."""
+    return dependence.fall - dependence.basis.size * float(np.log(fit.whitened.size))

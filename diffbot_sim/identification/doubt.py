@@ -1,0 +1,118 @@
+"""Doubt: names that do not stand up to what is left when they have had their say."""
+
+from collections.abc import Sequence
+from math import inf
+
+import numpy as np
+
+from diffbot_sim.identification.bases import Basis, again
+from diffbot_sim.identification.fitting import Fit
+from diffbot_sim.identification.result import Structure
+from diffbot_sim.identification.screening import Screen
+from diffbot_sim.identification.selection import Selection
+from diffbot_sim.identification.stretches import Stretch
+from diffbot_sim.identification.structure import (
+    BLOCK_LEVEL,
+    Dependence,
+    dependences,
+    describe,
+    explained_by,
+    find_dependence,
+    sensitivity,
+    worth_of,
+)
+from diffbot_sim.physics.effects import Effect
+
+# By how much in BIC a free form must beat an effect before the effect's name is withdrawn.
+OUTDONE = 10.0
+# An effect that takes this share of its worth from a free form stands or falls with it.
+TAKEN_SHARE = 0.5
+# A law of the right form leaves less than this share of what it explains to a free form that can
+# do this share of what it does.
+LEFT_SHARE, IMITATED_SHARE = 0.1, 0.5
+# A name is believed beside structure without a name that explains less than this share of it.
+WORTHIER = 0.5
+
+
+def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection, Structure | None]:
+    """Withdraw names that do not stand up to a free-form force; return what is left unnamed.
+
+    So goes a name that a free form outdoes, one whose law leaves much of what it is about, and the
+    weakest one where almost as much is left as it explains: it may be a part of that.
+    """
+    final = selection.final
+    for kind in final.space.kinds:
+        better = _outdone(selection.without[kind.name], final, kind)
+        if better is not None:
+            return _without(selection, kind.name, describe(better, final), held_out)
+    left = find_dependence(Screen(final), held_out)
+    if left is None:
+        return selection, None
+    for kind in final.space.kinds:
+        rest = selection.without[kind.name]
+        whole = _free_form_of(rest, final, kind, left)
+        if whole is not None:
+            return _without(selection, kind.name, describe(whole, rest), held_out)
+    worths = ((evidence.delta_bic, name) for name, evidence in selection.support.items())
+    worth, weakest = min(worths, default=(inf, ''))
+    if WORTHIER * worth > worth_of(left, final):
+        return selection, describe(left, final)
+    return _without(selection, weakest, describe(left, final), held_out)
+
+
+def _without(
+    selection: Selection, name: str, instead: Structure, held_out: Sequence[Stretch]
+) -> tuple[Selection, Structure]:
+    """Doubt what is left when a name has gone; there is structure, if only what it went for."""
+    selection, structure = doubt(selection.withdrawn(name), held_out)
+    return selection, structure or instead
+
+
+def _outdone(rest: Fit, final: Fit, kind: type[Effect]) -> Dependence | None:
+    """Return a free-form force of which an effect captures a part only, if there is one.
+
+    rest: the fit that lacks the effect, final: the one that has it. An effect of the right kind
+    needs fewer parameters than any free form, and leaves nothing of it. One that only resembles
+    what acts is outdone, takes its worth from the free form, and leaves the rest of it. Structure
+    that is there with and without the effect says nothing against its name. All to first order,
+    so that both sides of the comparison err alike.
+    """
+    screen = Screen(rest)
+    size = float(np.log(rest.whitened.size))
+    worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
+    named = max(worth, screen.score(kind).ratio) - len(kind.specs()) * size
+    best = dependences(screen)[0]
+    cost = len(best.amounts) * size
+    if best.fall - cost < named + OUTDONE or best.p_block > BLOCK_LEVEL:
+        return None
+    left = explained_by(Screen(final), again(best.basis, final, final.stretches)).fall
+    taken = best.fall - left
+    return best if left - cost > OUTDONE and taken > TAKEN_SHARE * worth else None
+
+
+def _free_form_of(
+    rest: Fit, final: Fit, kind: type[Effect], left: Dependence
+) -> Dependence | None:
+    """Return the free-form force that an effect of a wrong form stands for, if that is so.
+
+    rest: the fit that lacks the effect, final: the one that has it; left: what is beyond doubt in
+    it. Of a law of the right form no free form that can imitate it finds much left.
+    """
+    worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
+    if left.fall < LEFT_SHARE * worth or _imitated(final, kind, left.basis) < IMITATED_SHARE:
+        return None
+    return explained_by(Screen(rest), again(left.basis, rest, rest.stretches))
+
+
+def _imitated(fit: Fit, kind: type[Effect], basis: Basis) -> float:
+    """Return the share of what an effect does, to first order, that a free form can do as well."""
+    names = [coordinate.name for coordinate in fit.space.coordinates]
+    own = [i for i, name in enumerate(names) if name.startswith(kind.name + '.')]
+    departure = (fit.u - fit.space.prior())[own]
+    others = np.delete(fit.jacobian, own, axis=-1).reshape(fit.whitened.size, -1)
+    free = sensitivity(fit, fit.stretches, basis).reshape(fit.whitened.size, -1)
+    effect = (fit.jacobian[..., own] @ departure).ravel()
+    rest = effect - others @ np.linalg.lstsq(others, effect, rcond=1e-8)[0]
+    both = np.column_stack([others, free])
+    missed = effect - both @ np.linalg.lstsq(both, effect, rcond=1e-8)[0]
+    return 1.0 - float(missed @ missed) / max(float(rest @ rest), 1e-12)

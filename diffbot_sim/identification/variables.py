@@ -1,0 +1,261 @@
+"""What a force without a law may depend on: a variable, and the forms that it is looked at in.
+
+Each form turns one stretch into columns: how much each function of the variable is there at
+every sample, shape (k, q, 1) for the body or (k, q, 2) for the right and the left wheel.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import ClassVar
+
+import numpy as np
+
+from diffbot_sim.identification.fitting import Fit
+from diffbot_sim.identification.periodicity import rates, wheel_orders
+from diffbot_sim.identification.predictor import Prediction
+from diffbot_sim.identification.stretches import Stretch, travel
+from diffbot_sim.records import Array
+
+KNOTS, FINE_KNOTS, HARMONICS = 6, 20, 2
+# Edges of the spans in which the past of a command is averaged [s].
+PAST = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
+# Rates that differ by a line width, among which the strongest were chosen; a generous count.
+LOOKED_AT = 1000
+BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
+
+
+@dataclass(frozen=True)
+class View:
+    """A stretch as a fit sees it."""
+
+    fit: Fit
+    stretch: Stretch
+    prediction: Prediction
+
+    @property
+    def v(self) -> Array:
+        """Speed [m/s], shape (k,)."""
+        return self.prediction.twist[:, 0]
+
+    @property
+    def omega(self) -> Array:
+        """Yaw rate [rad/s], shape (k,)."""
+        return self.prediction.twist[:, 1]
+
+    @cached_property
+    def wheel_speed(self) -> Array:
+        """Speeds of the wheels [m/s], shape (k, 2)."""
+        return self.prediction.twist @ self._mix
+
+    @cached_property
+    def wheel_angle(self) -> Array:
+        """Angles of the wheels [rad], shape (k, 2)."""
+        radius = self.fit.model.robot.wheel_radius
+        return travel(self.stretch, self.prediction.twist) @ self._mix / radius
+
+    @property
+    def _mix(self) -> Array:
+        b = self.fit.model.robot.half_separation
+        return np.array([[1.0, 1.0], [b, -b]])
+
+    @cached_property
+    def force(self) -> Array:
+        """Commanded forces [N], shape (k, 2)."""
+        commands = self.stretch.run.commands
+        index = np.searchsorted(commands.time, self.stretch.time, side='right') - 1
+        return np.where(index[:, None] >= 0, commands.force[np.maximum(index, 0)], 0.0)
+
+    def past_force(self, first: float, last: float) -> Array:
+        """Return commanded forces averaged from `last` to `first` seconds ago, shape (k, 2)."""
+        commands, time = self.stretch.run.commands, self.stretch.time
+        stamps = np.append(commands.time, max(float(commands.time[-1]), float(time[-1])) + 1e-9)
+        impulse = np.vstack(
+            [np.zeros(2), np.cumsum(np.diff(stamps)[:, None] * commands.force, axis=0)]
+        )
+        ends = [
+            np.column_stack([np.interp(time - lag, stamps, wheel) for wheel in impulse.T])
+            for lag in (first, last)
+        ]
+        return np.asarray((ends[0] - ends[1]) / (last - first))
+
+
+# What a variable is at every sample, shape (k,) or (k, 2).
+Of = Callable[[View], Array]
+
+
+@dataclass(frozen=True)
+class Piecewise:
+    """Piecewise linear in a variable, in proportion to weights; knots lie at its quantiles.
+
+    weights: each set of them has functions of its own.
+    """
+
+    of: Of
+    weights: tuple[Of, ...] = (lambda view: np.ones(1),)
+    count: int = KNOTS
+    looked_at: ClassVar[int] = 1
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return distinct knots; none where the drive does not vary this."""
+        values = np.concatenate([self.of(view).ravel() for view in views])
+        knots = np.unique(np.quantile(values, np.linspace(0.0, 1.0, self.count)))
+        return [knots] if len(knots) >= 3 and knots[-1] - knots[0] > 1e-6 else []
+
+    def columns(self, view: View, knots: Array) -> Array:
+        """Evaluate hats along a stretch."""
+        hats = [np.interp(self.of(view), knots, hat) for hat in np.eye(len(knots))]
+        columns = [weigh(view) * hat for weigh in self.weights for hat in hats]
+        return np.stack([column.reshape(len(column), -1) for column in columns], axis=1)
+
+    def curve(self, knots: Array) -> tuple[Array, Array]:
+        """Return points of the variable and all functions there, of the first weights."""
+        return knots, np.eye(len(knots), len(knots) * len(self.weights))
+
+
+@dataclass(frozen=True)
+class Periodic:
+    """Waves in an angle: of the heading, of a wheel's turn times an order, of time.
+
+    rates: by which the angle is multiplied; looked_at: how many rates they were chosen among.
+    """
+
+    of: Of
+    rates: Callable[[Fit], Sequence[float]] = lambda fit: (1.0,)
+    harmonics: int = HARMONICS
+    looked_at: int = 1
+    points: int = 25
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return the rates to be tried, each a grid of one."""
+        return [np.array([rate]) for rate in self.rates(views[0].fit)]
+
+    def columns(self, view: View, rate: Array) -> Array:
+        """Evaluate waves along a stretch, those of each wheel on their own."""
+        angle = rate[0] * self.of(view).reshape(len(view.stretch.time), -1)
+        waves = self._waves(angle)
+        apart = [waves * only for only in np.eye(angle.shape[1])[:, None]]
+        return np.concatenate(apart, axis=1)
+
+    def curve(self, rate: Array) -> tuple[Array, Array]:
+        """Return angles of one turn, and the functions of the body or the right wheel there."""
+        angle = np.linspace(-np.pi, np.pi, self.points)
+        return angle, self._waves(angle[:, None])[..., 0]
+
+    def _waves(self, angle: Array) -> Array:
+        turns = [h * angle for h in range(1, self.harmonics + 1)]
+        return np.stack([wave(turn) for turn in turns for wave in (np.cos, np.sin)], axis=1)
+
+
+@dataclass(frozen=True)
+class Past:
+    """Every wheel's command in spans of the past: any linear law between command and force."""
+
+    looked_at: ClassVar[int] = 1
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return the edges of the spans [s]."""
+        del views
+        return [PAST]
+
+    def columns(self, view: View, edges: Array) -> Array:
+        """Return mean commands of each span, over the largest command."""
+        most = max(float(np.abs(view.stretch.run.commands.force).max()), 1e-9)
+        spans = [view.past_force(*span) for span in pairwise(edges)]
+        return np.stack(spans, axis=1) / most
+
+    def curve(self, edges: Array) -> tuple[Array, Array]:
+        """Return the middles of the spans and the functions there."""
+        return 0.5 * (edges[1:] + edges[:-1]), np.eye(len(edges) - 1)
+
+
+Form = Piecewise | Periodic | Past
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A variable in words, its form, and along which axes a force may depend on it."""
+
+    words: str
+    form: Form
+    axes: tuple[str, ...]
+
+
+def _time(view: View) -> Array:
+    return view.stretch.time
+
+
+def _time_of_wheels(view: View) -> Array:
+    return np.repeat(view.stretch.time[:, None], 2, axis=1)
+
+
+def _rolling(view: View) -> Array:
+    return np.sign(view.wheel_speed)
+
+
+def _place(index: int) -> Of:
+    def of(view: View) -> Array:
+        pose = view.stretch.pose
+        place = np.zeros(len(view.stretch.time)) if pose is None else pose[:, index]
+        return np.repeat(place[:, None], 2, axis=1)
+
+    return of
+
+
+def _share_of_force(view: View) -> Array:
+    return np.asarray(view.force / max(float(np.abs(view.force).max()), 1e-9))
+
+
+VARIABLES = {
+    'v': Variable('the speed', Piecewise(lambda view: view.v), BODY),
+    'omega': Variable('the yaw rate', Piecewise(lambda view: view.omega), BODY),
+    'cornering': Variable(
+        'the product of speed and yaw rate', Piecewise(lambda view: view.v * view.omega), BODY
+    ),
+    'heading': Variable('the heading', Periodic(lambda view: view.stretch.heading), BODY),
+    'time': Variable('time', Piecewise(_time), BODY),
+    'rhythm': Variable(
+        'time, with a steady rhythm',
+        Periodic(lambda view: 2.0 * np.pi * view.stretch.time, rates, 1, LOOKED_AT),
+        BODY,
+    ),
+    'wheel_speed': Variable(
+        "each wheel's speed",
+        Piecewise(
+            lambda view: np.abs(view.wheel_speed),
+            (
+                lambda view: np.maximum(_rolling(view), 0.0),
+                lambda view: np.maximum(-_rolling(view), 0.0),
+            ),
+        ),
+        WHEELS,
+    ),
+    'wheel_angle': Variable(
+        "each wheel's angle",
+        Periodic(lambda view: view.wheel_angle, wheel_orders, 1, LOOKED_AT),
+        ('wheels',),
+    ),
+    'wheel_force': Variable(
+        "each wheel's commanded force", Piecewise(lambda view: view.force), WHEELS
+    ),
+    'past_force': Variable("the past of each wheel's commanded force", Past(), WHEELS),
+    'force_over_time': Variable(
+        'time, in proportion to the commanded force',
+        Piecewise(_time_of_wheels, (_share_of_force,)),
+        WHEELS,
+    ),
+    'friction_over_time': Variable(
+        'time, against the motion', Piecewise(_time_of_wheels, (_rolling,)), WHEELS
+    ),
+    'place_x': Variable(
+        'where along x it rolls, against the motion',
+        Piecewise(_place(0), (_rolling,), FINE_KNOTS),
+        ('wheels',),
+    ),
+    'place_y': Variable(
+        'where along y it rolls, against the motion',
+        Piecewise(_place(1), (_rolling,), FINE_KNOTS),
+        ('wheels',),
+    ),
+}
