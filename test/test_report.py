@@ -284,7 +284,7 @@ def test_page_is_no_wider_than_a_phone_or_a_screen(width: int, tmp_path: Path) -
 def test_browser_draws_the_figures(tmp_path: Path) -> None:
     write_report(by_hand.unexplained(), tmp_path)
     dom = browsed(tmp_path / 'report.html')
-    assert dom.count('class="plot js-plotly-plot"') == 17
+    assert dom.count('class="plot js-plotly-plot"') == 21
     assert (
         dom.count('<script type="application/json">') == 3
     )  # the second run waits until it is chosen

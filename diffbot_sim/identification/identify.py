@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
 
 from diffbot_sim.errors import DataError
+from diffbot_sim.identification.advice import advice
 from diffbot_sim.identification.agreement import agreement
 from diffbot_sim.identification.calibration import calibrate, simulation_error
 from diffbot_sim.identification.comparison import compare_models, errors_of
@@ -25,7 +26,7 @@ from diffbot_sim.identification.result import (
 from diffbot_sim.identification.selection import Selection, select
 from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch, split, whole
-from diffbot_sim.identification.trials import UNSEEN, Trial
+from diffbot_sim.identification.trials import Trial
 from diffbot_sim.identification.uncertainty import estimates
 from diffbot_sim.physics.effects import Effect, laws, library
 from diffbot_sim.physics.model import Model
@@ -82,7 +83,7 @@ def identify(
         recalibrated=recalibrated.model,
         identified=final.model,
         comparisons=comparisons,
-        advice=_advice(selection),
+        advice=advice(selection, estimates(final)),
         empirical=table_of(unexplained) if closed and unexplained else None,
         horizons=horizons(models, watched, held_out, errors),
         runs=agreement(selection.final, [*runs, *validate]),
@@ -163,13 +164,4 @@ def _candidate(trial: Trial) -> Candidate:
         evidence.held_out_gain,
         trial.outcome,
         {key.removeprefix(trial.kind.name + '.'): value for key, value in own.items()},
-    )
-
-
-def _advice(selection: Selection) -> tuple[str, ...]:
-    """Say which drive would show what this one does not."""
-    return tuple(
-        f'{trial.kind.name} cannot be seen in this drive; it would take {trial.kind.excitation}.'
-        for trial in selection.trials
-        if trial.outcome == UNSEEN
     )

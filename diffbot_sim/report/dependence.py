@@ -54,7 +54,20 @@ VARIABLES = {
     'traction': Variable('traction force [N]', lambda run: run.with_effects.traction.sum(axis=1)),
     'time': Variable('time [s]', lambda run: run.time),
 }
-ANGLES = ('heading', 'wheel_angle')  # radians everywhere, degrees on paper
+ANGLES = ('heading', 'wheel_angle', 'rhythm')  # radians everywhere, degrees on paper
+# Of variables that only structure without a name is looked for in.
+LABELS = {
+    'cornering': 'v·ω [m/s²]',
+    'rhythm': 'phase [°]',
+    'wheel_angle': 'right wheel angle times the order [°]',
+    'wheel_speed': 'speed of a wheel rolling forward [m/s]',
+    'wheel_force': "a wheel's commanded force [N]",
+    'past_force': 'age of the command [s]',
+    'force_over_time': 'time [s]',
+    'friction_over_time': 'time [s]',
+    'place_x': 'x [m]',
+    'place_y': 'y [m]',
+}
 
 
 def residual(run: Comparison, model: str, axis: int) -> Array:

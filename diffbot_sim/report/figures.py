@@ -15,6 +15,7 @@ from diffbot_sim.report.dependence import (
     residual,
     strongest,
 )
+from diffbot_sim.report.dependence import LABELS as LABELS_OF_STRUCTURE
 from diffbot_sim.report.drawing import (
     COLOURS,
     DASHES,
@@ -135,6 +136,7 @@ def structure_figure(structure: Structure) -> Figure:
     data = [band(x, y - spread, y + spread, colour), line(x, y, 'estimate', colour)]
     known = VARIABLES.get(structure.variable)
     label = known.label if known else structure.variable
+    label = LABELS_OF_STRUCTURE.get(structure.variable, label)
     force = TORQUE if structure.axis == 'omega' else FORCE
     look = layout(320, xaxis=axis(label), yaxis=axis(force), showlegend=False)
     return Figure('What no effect accounts for', 'Estimate with its 95 % band.', data, look)

@@ -32,6 +32,7 @@ def as_dict(result: Identification) -> dict[str, Any]:
         'verdict': result.verdict,
         'effects': [_effect(effect) for effect in result.effects],
         'unexplained': None if result.unexplained is None else asdict(result.unexplained),
+        'empirical': None if result.empirical is None else asdict(result.empirical),
         'nominal': {'parameters': _estimates(result.nominal)},
         'error': asdict(result.errors),
         'candidates': [asdict(candidate) for candidate in result.candidates],

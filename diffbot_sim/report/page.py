@@ -21,6 +21,7 @@ from diffbot_sim.report.errors import (
     run_errors,
 )
 from diffbot_sim.report.numerals import significant
+from diffbot_sim.report.spectra import spectrum_figures
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,8 @@ def page_text(result: Identification) -> str:
             runs=[_run_part(result, run) for run in result.comparisons],
             dependence=figures.residual_figures(result) if result.comparisons else [],
             disturbance=figures.disturbance_figures(result) if result.comparisons else [],
+            spectra=spectrum_figures(result.comparisons) if result.comparisons else [],
+            empirical=sentences.empirical(result),
             nominal=rows.nominal_rows(result),
             kept=rows.kept_rows(result),
             candidates=[rows.candidate_row(candidate) for candidate in result.candidates],

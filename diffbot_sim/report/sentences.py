@@ -71,6 +71,18 @@ def structure(left: Structure) -> str:
     )
 
 
+def empirical(result: Identification) -> str:
+    """Say whether a table in model.yaml stands for what is unexplained."""
+    if result.unexplained is None:
+        return ''
+    if result.empirical is None:
+        return 'No table stands for it in model.yaml: none lowered the held-out error.'
+    return (
+        'In model.yaml a table, empirical_force, stands for it: no law, but it lowers the '
+        'held-out error.'
+    )
+
+
 def _left(result: Identification) -> str:
     if result.unexplained is None:
         return 'the residual has structure that no effect of the library accounts for'

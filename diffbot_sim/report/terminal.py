@@ -27,6 +27,8 @@ def print_summary(result: Identification, console: Console | None = None) -> Non
         console.print(_horizons(result))
     if result.effects:
         console.print(_effects(result))
+    if result.unexplained:
+        console.print(Text(sentences.empirical(result)), '')
     for effect in result.effects:
         if effect.alternatives:
             console.print(Text(sentences.alternatives(effect)), '')
