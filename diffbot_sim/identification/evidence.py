@@ -65,15 +65,20 @@ def delta_bic(first: Fit, second: Fit) -> float:
 def held_out_gain(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> tuple[float, float]:
     """Return the mean fall of the held-out loss per sample, and its chance over blocks.
 
-    The small fit's noise model watches both: a model that is trusted more is also punished more
-    where a wheel breaks away a moment too late, which says nothing of its structure.
+    Watched by the noise model of either fit, whichever shows more: that of the small one may make
+    up for what it lacks, that of the large one trusts a model that is a moment late when a wheel
+    breaks away. The chance counts both looks.
     """
-    losses = []
-    for fit in (small, large):
-        begun = restarted(fit.model, held_out, MAX_STEP)
-        errors = whitened(begun, fit.model, small.gains, large.sigma)
-        losses.append(0.5 * huber(errors).sum(axis=1))
-    return block_gain(losses[0] - losses[1])
+    begun = [restarted(fit.model, held_out, MAX_STEP) for fit in (small, large)]
+    looks = []
+    for gains in (small.gains, large.gains):
+        losses = [
+            0.5 * huber(whitened(stretches, fit.model, gains, large.sigma)).sum(axis=1)
+            for fit, stretches in zip((small, large), begun, strict=True)
+        ]
+        looks.append(block_gain(losses[0] - losses[1]))
+    gain, chance = min(looks, key=lambda look: look[1])
+    return gain, min(1.0, len(looks) * chance)
 
 
 def block_gain(gain: Array) -> tuple[float, float]:
