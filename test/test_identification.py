@@ -108,6 +108,14 @@ def test_effect_that_the_library_lacks_is_unexplained_and_its_variable_named() -
     assert (result.unexplained.axis, result.unexplained.variable) == ('v', 'heading')
 
 
+def test_effect_that_only_resembles_what_acts_is_not_named() -> None:
+    others = [kind for name, kind in laws().items() if name != 'actuator_delay']
+    result = identify([run_of(with_typical('actuator_delay'), 3)], DECLARED, kinds=others)
+    assert result.effects == ()
+    assert result.unexplained is not None
+    assert result.unexplained.variable == 'past_force'
+
+
 def test_interval_is_narrow_and_near_the_truth() -> None:
     estimate = answer('quadratic_drag').effects[0].parameters['coefficient']
     assert estimate.low < estimate.value < estimate.high

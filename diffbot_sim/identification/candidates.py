@@ -32,9 +32,12 @@ def complete(near: Fit) -> Fit:
 
 
 def begun_anew(fit: Fit) -> Fit:
-    """Fit again from the first states that this model finds best: a poorer one misjudged them."""
+    """Fit again from the first states that this model finds best: a poorer one misjudged them.
+
+    And to the very end: as the noise model makes up for less, the parameters move on.
+    """
     stretches = restarted(fit.model, fit.stretches, MAX_STEP)
-    return fit_prediction(fit.space, stretches, fit.u, fit.gains, evaluations=8, rounds=2)
+    return fit_prediction(fit.space, stretches, fit.u, fit.gains, evaluations=10, rounds=8)
 
 
 def reduce(fit: Fit, name: str) -> Fit:

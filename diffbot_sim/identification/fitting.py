@@ -26,6 +26,8 @@ HUBER = 3.0
 WORST = 1e9
 # Step of finite differences, in coordinates of order one.
 DIFFERENCE = 1e-5
+# A scale that changes by less than this share between two rounds has settled.
+SETTLED = 0.002
 Errors = Callable[[Array, Array], Array]
 Item = TypeVar('Item')
 Result = TypeVar('Result')
@@ -193,7 +195,7 @@ def _minimise(
     for _ in range(rounds):
         point = _least_squares(errors, point, prior, bounds, sigma, evaluations)
         fresh = scale_of(errors(point, np.ones(2)))
-        settled = bool(np.all(np.abs(fresh / sigma - 1.0) < 0.02))
+        settled = bool(np.all(np.abs(fresh / sigma - 1.0) < SETTLED))
         sigma = fresh
         if settled:
             break

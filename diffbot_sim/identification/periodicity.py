@@ -14,8 +14,6 @@ HIGHEST_RATE, FEWEST_CYCLES = 5.0, 4.0
 FINENESS, SAMPLES_PER_CYCLE = 3.0, 3.0
 # Beside a peak, this many line widths are its side lobes.
 SIDE_LOBES = 5.0
-# Memory for one block of orders, in numbers.
-BLOCK = 4_000_000
 
 
 def wheel_orders(fit: Fit) -> tuple[float, ...]:
@@ -67,14 +65,12 @@ def _by_wheel(fit: Fit) -> tuple[Array, Array]:
 
 
 def _power(orders: Array, angles: Array, errors: Array) -> Array:
-    """Return the squared amplitude at each order, both wheels together."""
-    power = np.zeros(len(orders))
-    size = max(1, BLOCK // len(angles))
-    for begin in range(0, len(orders), size):
-        block = orders[begin : begin + size]
-        for wheel in range(2):
-            waves = np.exp(1j * np.outer(block, angles[:, wheel]))
-            power[begin : begin + size] += np.abs(waves @ errors[:, wheel]) ** 2
+    """Return the squared amplitude at each of evenly spaced orders, both columns together."""
+    waves = errors * np.exp(1j * orders[0] * angles)
+    step, power = np.exp(1j * (orders[1] - orders[0]) * angles), np.empty(len(orders))
+    for index in range(len(orders)):
+        power[index] = np.sum(np.abs(waves.sum(axis=0)) ** 2)
+        waves *= step
     return power
 
 

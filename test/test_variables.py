@@ -1,0 +1,62 @@
+"""What free-form forces depend on, and how they push the body."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
+from diffbot_sim.identification.bases import Basis
+from diffbot_sim.identification.coordinates import Space
+from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, predictions
+from diffbot_sim.identification.stretches import whole
+from diffbot_sim.identification.variables import PAST, VARIABLES, View
+from diffbot_sim.physics import Model
+
+
+@pytest.fixture(scope='module')
+def view() -> View:
+    run = rehearse(Model(), random_forces(5, 20.0, -9.0, 11.0), Surroundings(), 5)
+    (stretch,) = whole([run])
+    space = Space(Model(), ())
+    fit = Fit(space, (stretch,), space.prior(), FIRST_GAINS, np.ones(2))
+    return View(fit, stretch, predictions(fit, [stretch])[0])
+
+
+@pytest.mark.parametrize('name', ['v', 'omega', 'time', 'cornering', 'wheel_force', 'place_x'])
+def test_hats_add_up_to_the_weight(view: View, name: str) -> None:
+    form = VARIABLES[name].form
+    (knots,) = form.grids([view])
+    total = form.columns(view, knots).sum(axis=1)
+    weight = np.sign(view.wheel_speed) if name == 'place_x' else 1.0
+    np.testing.assert_allclose(total, np.broadcast_to(weight, total.shape), atol=1e-12)
+
+
+@pytest.mark.parametrize('name', list(VARIABLES))
+def test_every_form_draws_as_many_functions_as_it_shows(view: View, name: str) -> None:
+    form = VARIABLES[name].form
+    for grid in form.grids([view]):
+        points, design = form.curve(grid)
+        assert len(points) == len(design)
+        assert design.shape[1] <= form.columns(view, grid).shape[1]
+
+
+def test_past_of_a_steady_command_is_that_command(view: View) -> None:
+    command = view.stretch.run.commands.force[0]
+    np.testing.assert_allclose(view.past_force(-1e-9, 0.0)[0], command, atol=1e-6)
+
+
+def test_spans_of_the_past_average_the_command(view: View) -> None:
+    spans = [view.past_force(*span) for span in pairwise(PAST)]
+    widths = np.diff(PAST)
+    joined = sum(width * span for width, span in zip(widths, spans, strict=True)) / PAST[-1]
+    np.testing.assert_allclose(joined, view.past_force(0.0, PAST[-1]), atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ('axis', 'force', 'torque'), [('wheels', 3.0, -0.2), ('difference', -1.0, 0.6)]
+)
+def test_wheel_forces_push_and_turn_the_body(axis: str, force: float, torque: float) -> None:
+    wheels = np.array([[[1.0, 2.0]]])
+    basis = Basis(axis, 'wheel_speed', np.empty(0), 1.0, 0.2, (wheels,))
+    np.testing.assert_allclose(basis.push(0, 0), [[force, torque]])
