@@ -5,6 +5,7 @@ from math import hypot
 
 import numpy as np
 from recovery_cases import Row
+from recovery_coverage import coverage
 
 
 def told(row: Row) -> str:
@@ -51,10 +52,14 @@ def tables(rows: Sequence[Row]) -> str:
     sections = [
         _section('Clean robots', _of(rows, 'clean'), ('make', 'floor'), CLEAN),
         _section('One effect', _of(rows, 'single'), ('effects', 'size', 'floor'), SINGLE),
+        _section('One effect, by size', _of(rows, 'single'), ('size', 'floor'), SINGLE),
         _section('Two effects', _of(rows, 'pairs'), ('floor',), PAIRS),
-        _section('Effect taken out of the library', _of(rows, 'removed'), ('effects',), NAMELESS),
+        _section(
+            'Effect taken out of the library', _of(rows, 'removed'), ('effects', 'floor'), NAMELESS
+        ),
         _section('Effect of no vocabulary', _of(rows, 'foreign'), ('effects', 'floor'), NAMELESS),
         _section('Detection over size', _of(rows, 'sizes'), ('effects', 'size', 'floor'), SINGLE),
+        coverage(rows),
     ]
     return '\n\n'.join(section for section in sections if section)
 

@@ -18,6 +18,9 @@ from diffbot_sim.physics.effects import Effect
 # guards against chance; the block test against disturbances that are no white noise; the
 # held-out gain against fitting them.
 LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_LEVEL = 1e-3, 1e-2, 0.05
+# Where the block test is as sure as this, held-out data, of which there are few, must not speak
+# against an effect, but need not prove it once more.
+BEYOND_DOUBT = 1e-5
 # What explains less than this share of the best after a few steps is fitted to its end only where
 # nothing better enters.
 WORTH_COMPLETING = 0.4
@@ -131,6 +134,7 @@ def judge(evidence: Evidence, tried: int) -> str:
         return CHANCE
     if evidence.p_block > BLOCK_LEVEL:
         return 'not beyond a disturbance that changes slowly'
-    if evidence.p_held_out > HELD_OUT_LEVEL:
+    sure = evidence.p_block < BEYOND_DOUBT and evidence.held_out_gain > 0.0
+    if evidence.p_held_out > HELD_OUT_LEVEL and not sure:
         return 'does not predict held-out data better'
     return SUPPORTED
