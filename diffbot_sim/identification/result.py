@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 from diffbot_sim.physics.effects.empirical_force import EmpiricalForce
+from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForce
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array, Trajectory
 
@@ -185,6 +186,6 @@ class Identification:
     identified: Model
     comparisons: tuple[Comparison, ...]
     advice: tuple[str, ...] = ()
-    empirical: EmpiricalForce | None = None
+    empirical: EmpiricalForce | EmpiricalWheelForce | None = None
     horizons: tuple[Horizon, ...] = ()
     runs: tuple[RunCheck, ...] = ()

@@ -87,13 +87,10 @@ Of = Callable[[View], Array]
 
 @dataclass(frozen=True)
 class Piecewise:
-    """Piecewise linear in a variable, in proportion to weights; knots lie at its quantiles.
-
-    weights: each set of them has functions of its own.
-    """
+    """Piecewise linear in a variable, in proportion to weights; knots lie at its quantiles."""
 
     of: Of
-    weights: tuple[Of, ...] = (lambda view: np.ones(1),)
+    weights: Of = lambda view: np.ones(1)
     count: int = KNOTS
     looked_at: ClassVar[int] = 1
 
@@ -105,13 +102,37 @@ class Piecewise:
 
     def columns(self, view: View, knots: Array) -> Array:
         """Evaluate hats along a stretch."""
-        hats = [np.interp(self.of(view), knots, hat) for hat in np.eye(len(knots))]
-        columns = [weigh(view) * hat for weigh in self.weights for hat in hats]
-        return np.stack([column.reshape(len(column), -1) for column in columns], axis=1)
+        return _hats(self.of(view), knots, self.weights(view))
 
     def curve(self, knots: Array) -> tuple[Array, Array]:
-        """Return points of the variable and all functions there, of the first weights."""
-        return knots, np.eye(len(knots), len(knots) * len(self.weights))
+        """Return points of the variable and all functions there."""
+        return knots, np.eye(len(knots))
+
+
+@dataclass(frozen=True)
+class TwoSided:
+    """Piecewise linear on both sides of zero, where it may jump; nothing at zero itself."""
+
+    of: Of
+    count: int = KNOTS
+    looked_at: ClassVar[int] = 1
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return distinct knots of the size, the same for both sides."""
+        return Piecewise(lambda view: np.abs(self.of(view)), count=self.count).grids(views)
+
+    def columns(self, view: View, knots: Array) -> Array:
+        """Evaluate hats along a stretch, the negative side first."""
+        values = self.of(view)
+        sides = [
+            _hats(np.abs(values), knots, np.maximum(side * np.sign(values), 0.0))
+            for side in (-1.0, 1.0)
+        ]
+        return np.concatenate([sides[0][:, ::-1], sides[1]], axis=1)
+
+    def curve(self, knots: Array) -> tuple[Array, Array]:
+        """Return points from the negative end to the positive one, and all functions there."""
+        return np.concatenate([-knots[::-1], knots]), np.eye(2 * len(knots))
 
 
 @dataclass(frozen=True)
@@ -170,7 +191,7 @@ class Past:
         return 0.5 * (edges[1:] + edges[:-1]), np.eye(len(edges) - 1)
 
 
-Form = Piecewise | Periodic | Past
+Form = Piecewise | TwoSided | Periodic | Past
 
 
 @dataclass(frozen=True)
@@ -180,6 +201,12 @@ class Variable:
     words: str
     form: Form
     axes: tuple[str, ...]
+
+
+def _hats(values: Array, knots: Array, weights: Array) -> Array:
+    """Return weighted hat functions, shape (k, q, 1 or 2)."""
+    hats = [weights * np.interp(values, knots, hat) for hat in np.eye(len(knots))]
+    return np.stack([hat.reshape(len(hat), -1) for hat in hats], axis=1)
 
 
 def _time(view: View) -> Array:
@@ -222,13 +249,7 @@ VARIABLES = {
     ),
     'wheel_speed': Variable(
         "each wheel's speed",
-        Piecewise(
-            lambda view: np.abs(view.wheel_speed),
-            (
-                lambda view: np.maximum(_rolling(view), 0.0),
-                lambda view: np.maximum(-_rolling(view), 0.0),
-            ),
-        ),
+        TwoSided(lambda view: view.wheel_speed),
         WHEELS,
     ),
     'wheel_angle': Variable(
@@ -242,20 +263,20 @@ VARIABLES = {
     'past_force': Variable("the past of each wheel's commanded force", Past(), WHEELS),
     'force_over_time': Variable(
         'time, in proportion to the commanded force',
-        Piecewise(_time_of_wheels, (_share_of_force,)),
+        Piecewise(_time_of_wheels, _share_of_force),
         WHEELS,
     ),
     'friction_over_time': Variable(
-        'time, against the motion', Piecewise(_time_of_wheels, (_rolling,)), WHEELS
+        'time, against the motion', Piecewise(_time_of_wheels, _rolling), WHEELS
     ),
     'place_x': Variable(
         'where along x it rolls, against the motion',
-        Piecewise(_place(0), (_rolling,), FINE_KNOTS),
+        Piecewise(_place(0), _rolling, FINE_KNOTS),
         ('wheels',),
     ),
     'place_y': Variable(
         'where along y it rolls, against the motion',
-        Piecewise(_place(1), (_rolling,), FINE_KNOTS),
+        Piecewise(_place(1), _rolling, FINE_KNOTS),
         ('wheels',),
     ),
 }

@@ -60,7 +60,7 @@ LABELS = {
     'cornering': 'v·ω [m/s²]',
     'rhythm': 'phase [°]',
     'wheel_angle': 'right wheel angle times the order [°]',
-    'wheel_speed': 'speed of a wheel rolling forward [m/s]',
+    'wheel_speed': 'speed of a wheel [m/s]',
     'wheel_force': "a wheel's commanded force [N]",
     'past_force': 'age of the command [s]',
     'force_over_time': 'time [s]',

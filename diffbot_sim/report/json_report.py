@@ -32,7 +32,8 @@ def as_dict(result: Identification) -> dict[str, Any]:
         'verdict': result.verdict,
         'effects': [_effect(effect) for effect in result.effects],
         'unexplained': None if result.unexplained is None else asdict(result.unexplained),
-        'empirical': None if result.empirical is None else asdict(result.empirical),
+        'empirical': result.empirical
+        and {'name': result.empirical.name, 'parameters': asdict(result.empirical)},
         'nominal': {'parameters': _estimates(result.nominal)},
         'error': asdict(result.errors),
         'candidates': [asdict(candidate) for candidate in result.candidates],

@@ -76,10 +76,10 @@ def empirical(result: Identification) -> str:
     if result.unexplained is None:
         return ''
     if result.empirical is None:
-        return 'No table stands for it in model.yaml: none lowered the held-out error.'
+        return 'No table in model.yaml stands for it: none can, or it did not simulate better.'
     return (
-        'In model.yaml a table, empirical_force, stands for it: no law, but it lowers the '
-        'held-out error.'
+        f'In model.yaml a table, {result.empirical.name}, stands for it: no law, but it lowers '
+        'the held-out error.'
     )
 
 

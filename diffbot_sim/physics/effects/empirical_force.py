@@ -17,6 +17,15 @@ _FIRST_PERIODIC, _LAST_PERIODIC = (VARIABLES.index(name) for name in PERIODIC)
 
 
 @compiled
+def at_place(x: float, low: float, high: float, points: tuple[float, ...]) -> float:
+    """Return a table's value at x: linear between points, constant beyond the ends."""
+    last = len(points) - 1
+    place = last * min(max((x - low) / max(high - low, 1e-9), 0.0), 1.0)
+    below = min(int(place), last - 1)
+    return points[below] + (place - below) * (points[below + 1] - points[below])
+
+
+@compiled
 def tabulated(  # type: ignore[no-untyped-def]
     at: Motion, load: Load, axis: float, variable: float, low: float, high: float, *points
 ) -> Load:
@@ -25,14 +34,12 @@ def tabulated(  # type: ignore[no-untyped-def]
     x = (at.v, at.omega, at.heading, wheel_angle, at.time)[int(variable)]
     if _FIRST_PERIODIC <= variable <= _LAST_PERIODIC:
         x -= 2.0 * pi * ((x + pi) // (2.0 * pi))
-    last = len(points) - 1
-    place = last * min(max((x - low) / max(high - low, 1e-9), 0.0), 1.0)
-    below = min(int(place), last - 1)
-    push = points[below] + (place - below) * (points[below + 1] - points[below])
+    push = at_place(x, low, high, points)
     return pushed(load, push, 0.0) if axis == 0.0 else pushed(load, 0.0, push)
 
 
-def _point(index: int) -> float:
+def table_point(index: int) -> float:
+    """Declare one point of a table [N or N·m]."""
     share = index / (POINTS - 1)
     value: float = parameter(
         0.0,
@@ -66,18 +73,18 @@ class EmpiricalForce(Effect):
     high: float = parameter(
         pi, unit='-', low=-1e5, high=1e5, meaning='value at the last point, in its SI unit'
     )
-    point_1: float = _point(0)
-    point_2: float = _point(1)
-    point_3: float = _point(2)
-    point_4: float = _point(3)
-    point_5: float = _point(4)
-    point_6: float = _point(5)
-    point_7: float = _point(6)
-    point_8: float = _point(7)
-    point_9: float = _point(8)
-    point_10: float = _point(9)
-    point_11: float = _point(10)
-    point_12: float = _point(11)
+    point_1: float = table_point(0)
+    point_2: float = table_point(1)
+    point_3: float = table_point(2)
+    point_4: float = table_point(3)
+    point_5: float = table_point(4)
+    point_6: float = table_point(5)
+    point_7: float = table_point(6)
+    point_8: float = table_point(7)
+    point_9: float = table_point(8)
+    point_10: float = table_point(9)
+    point_11: float = table_point(10)
+    point_12: float = table_point(11)
 
     @property
     def points(self) -> tuple[float, ...]:
