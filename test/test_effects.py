@@ -126,7 +126,8 @@ def test_dissipative_effect_never_adds_energy(kind, data, robot, rows, start):
     model = Model(robot, SMOOTH, (data.draw(within_reach(kind)),))
     run = drive(model, *rows, until=2.5, every=0.25 / 8, start=start)
     energy, work = kinetic_energy(robot, run), traction_work(robot, run)
-    turnover = energy.max() + np.abs(np.diff(work)).sum()
+    # A stop is located to 1e-11 of a step, so it leaves a speed of 1e-13 m/s or so.
+    turnover = energy.max() + np.abs(np.diff(work)).sum() + 1e-19
     assert (np.diff(work) - np.diff(energy)).min() >= -1e-5 * turnover
 
 

@@ -40,4 +40,4 @@ def digest_of(names: Iterable[str], files: Iterable[Path]) -> str:
     return digest.hexdigest()[:12]
 
 
-_SOURCES = digest_of([], Path(__file__).parent.glob('*.py'))
+_SOURCES = digest_of([], Path(__file__).parent.rglob('*.py'))
