@@ -123,6 +123,12 @@ def test_interval_is_narrow_and_near_the_truth() -> None:
     assert estimate.high - estimate.low < 0.1
 
 
+def test_interval_of_a_moment_holds_the_truth() -> None:
+    estimate = answer('payload_change').effects[0].parameters['moment']
+    assert estimate.low < AMPLE['payload_change']['moment'] < estimate.high
+    assert estimate.high - estimate.low < 1.0
+
+
 def test_effect_that_is_declared_is_not_missing() -> None:
     declared = DECLARED.with_effect(QuadraticDrag(3.0))
     result = identify([run_of(Model().with_effect(QuadraticDrag(3.0)), 7)], declared)
