@@ -26,6 +26,7 @@ from diffbot_sim.records import Array, Commands, Odometry, Run
 
 TRAIN, TEST = 'DATA_EMPS.mat', 'DATA_EMPS_PULSES.mat'
 BESIDE = Path(__file__).parents[2] / 'shared' / 'data'
+MEASURED = Path(os.environ.get('DIFFBOT_DATA', BESIDE))
 WINDOW, ORDER = 15, 3  # of the polynomials that tell speed from position [samples, degree]
 EVERY = 10  # samples from one odometry message to the next: 100 Hz
 GIVEN = 20  # samples of the test that may tell the initial state: the benchmark's rule
@@ -59,7 +60,7 @@ def main() -> int:
     parser.add_argument(
         '--data',
         type=Path,
-        default=Path(os.environ.get('DIFFBOT_DATA', BESIDE)),
+        default=MEASURED,
         metavar='DIR',
         help=f'folder that holds emps/{TRAIN} and emps/{TEST} '
         '(default: $DIFFBOT_DATA, else ../shared/data)',
@@ -150,11 +151,14 @@ def score(model: Model, axis: Axis) -> Score:
 
 def open_loop(model: Model, axis: Axis) -> Array:
     """Return the simulated position [m] after the given samples, which tell where it starts."""
-    last = GIVEN - 1
-    start = np.polyfit(axis.time[:GIVEN] - axis.time[last], axis.position[:GIVEN], 2)
-    state = State(x=float(start[2]), v=float(start[1]))
     commands = Commands(axis.time, _halves(axis.force))
-    return simulate(model, commands, axis.time[last:], state).pose[1:, 0]
+    return simulate(model, commands, axis.time[GIVEN - 1 :], first_state(axis)).pose[1:, 0]
+
+
+def first_state(axis: Axis) -> State:
+    """Return the state at the last of the samples that may tell it, by a parabola through them."""
+    start = np.polyfit(axis.time[:GIVEN] - axis.time[GIVEN - 1], axis.position[:GIVEN], 2)
+    return State(x=float(start[2]), v=float(start[1]))
 
 
 def table(results: dict[str, Any]) -> str:

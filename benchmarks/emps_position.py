@@ -6,13 +6,12 @@ The benchmark judges position, which integrates every small error of speed. So t
 `identify` names is fitted to position, once to each file, and judged on both.
 """
 
-import os
 import sys
 from argparse import ArgumentParser
 from pathlib import Path
 
 import numpy as np
-from emps import BESIDE, DECLARED, GIVEN, TEST, TRAIN, Axis, read_axis
+from emps import DECLARED, GIVEN, MEASURED, TEST, TRAIN, Axis, first_state, read_axis
 from scipy.optimize import least_squares
 
 from diffbot_sim.errors import DiffbotError
@@ -20,7 +19,6 @@ from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.physics import Model, simulate
 from diffbot_sim.physics.effects import library
 from diffbot_sim.physics.embedding import embedded
-from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array, Commands
 
 EFFECTS = ('direction_dependent_friction',)  # what benchmarks/emps.py finds
@@ -33,13 +31,11 @@ IDLE = ('inertia',)
 
 def errors(model: Model, axis: Axis) -> Array:
     """Return simulated minus measured position [mm], from the force alone."""
-    last, count = GIVEN - 1, len(axis.force) // TOGETHER * TOGETHER
-    start = np.polyfit(axis.time[:GIVEN] - axis.time[last], axis.position[:GIVEN], 2)
+    count = len(axis.force) // TOGETHER * TOGETHER
     force = axis.force[:count].reshape(-1, TOGETHER).mean(axis=1) / 2.0
     commands = Commands(axis.time[:count:TOGETHER], np.column_stack([force, force]))
-    seen = np.arange(last, len(axis.time), EVERY)
-    state = State(x=float(start[2]), v=float(start[1]))
-    run = simulate(embedded(model), commands, axis.time[seen], state)
+    seen = np.arange(GIVEN - 1, len(axis.time), EVERY)
+    run = simulate(embedded(model), commands, axis.time[seen], first_state(axis))
     return 1e3 * (run.pose[:, 0] - axis.position[seen])
 
 
@@ -88,8 +84,7 @@ def table(space: Space, train: Axis, test: Axis) -> str:
 def main() -> int:
     """Print the table; 1 when the data are not there."""
     parser = ArgumentParser(description=__doc__.splitlines()[0])
-    default = Path(os.environ.get('DIFFBOT_DATA', BESIDE))
-    parser.add_argument('--data', type=Path, default=default, metavar='DIR')
+    parser.add_argument('--data', type=Path, default=MEASURED, metavar='DIR')
     folder = parser.parse_args().data / 'emps'
     try:
         train, test = read_axis(folder / TRAIN), read_axis(folder / TEST)

@@ -8,7 +8,6 @@ times speed, plus what the side draws anyway. Fitted with one log left out, judg
 """
 
 import json
-import os
 import sys
 from argparse import ArgumentParser
 from collections.abc import Iterable, Sequence
@@ -19,9 +18,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from emps import MEASURED
 from scipy.optimize import least_squares
 
 from diffbot_sim.errors import DataError, DiffbotError
+from diffbot_sim.parameters import Spec
 from diffbot_sim.physics import Friction, Model, Robot
 from diffbot_sim.physics.composition import compose
 from diffbot_sim.physics.effects import Effect, laws
@@ -30,7 +31,6 @@ from diffbot_sim.physics.stages import Motion, Stage
 from diffbot_sim.records import Array
 
 POINTS = 'quasi_static_points.csv'
-BESIDE = Path(__file__).parents[2] / 'shared' / 'data'
 RADIUS = 0.30  # of the wheels [m]
 MASS, GRAVITY = 280.0, 9.81
 STANDING = 0.02  # rim speeds below this count as none [m/s]
@@ -71,15 +71,15 @@ class Structure:
 
     @property
     def start(self) -> Array:
-        """Where fits start: 100 N and 100 N·s/m on each side, no idle power."""
-        return np.array([1.0, 1.0, 0.0, *(0.1 * self._sides)])
+        """Where fits start: 100 N and 100 N·s/m on each side, no idle power, a little effect."""
+        return np.array([1.0, 1.0, 0.0, *np.full(len(self._specs), 0.1)])
 
     @property
     def bounds(self) -> tuple[Array, Array]:
         """Friction takes energy; an effect keeps to its own bounds."""
-        specs = self.kind.specs() if self.kind else ()
-        low = [0.0, 0.0, -np.inf, *(s.low / u for s, u in zip(specs, self._units, strict=True))]
-        high = [np.inf] * 3 + [s.high / u for s, u in zip(specs, self._units, strict=True)]
+        pairs = list(zip(self._specs, self._units, strict=True))
+        low = [0.0, 0.0, -np.inf, *(spec.low / unit for spec, unit in pairs)]
+        high = [np.inf, np.inf, np.inf, *(spec.high / unit for spec, unit in pairs)]
         return np.array(low), np.array(high)
 
     def model(self, numbers: Array) -> Model:
@@ -95,15 +95,14 @@ class Structure:
         return force(self.model(numbers), points) * points.speed + UNIT * numbers[2]
 
     @property
-    def _units(self) -> Array:
-        """What typical departures of a 10 kg robot become on one of this weight."""
-        specs = self.kind.specs() if self.kind else ()
-        return np.array([s.scale * (MASS / 10.0 if 'N' in s.unit else 1.0) for s in specs])
+    def _specs(self) -> tuple[Spec, ...]:
+        return self.kind.specs() if self.kind else ()
 
     @property
-    def _sides(self) -> Array:
-        specs = self.kind.specs() if self.kind else ()
-        return np.array([1.0 if s.low <= 0.1 * s.scale else s.low / s.scale for s in specs])
+    def _units(self) -> Array:
+        """What typical departures of a 10 kg robot become on one of this weight."""
+        heavier = MASS / 10.0
+        return np.array([s.scale * (heavier if 'N' in s.unit else 1.0) for s in self._specs])
 
 
 def force(model: Model, points: Points) -> Array:
@@ -243,8 +242,7 @@ def table(results: dict[str, Any]) -> str:
 def main(words: Sequence[str] | None = None) -> int:
     """Run the benchmark; 1 when the data are not there."""
     parser = ArgumentParser(description=__doc__.splitlines()[0])
-    default = Path(os.environ.get('DIFFBOT_DATA', BESIDE))
-    parser.add_argument('--data', type=Path, default=default, metavar='DIR')
+    parser.add_argument('--data', type=Path, default=MEASURED, metavar='DIR')
     parser.add_argument('--out', type=Path, default=Path('out/warthog'), metavar='DIR')
     arguments = parser.parse_args(words)
     try:

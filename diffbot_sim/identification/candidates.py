@@ -1,5 +1,7 @@
 """Candidates: every effect is tried, and fitted jointly with the nominal parameters."""
 
+import numpy as np
+
 from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.fitting import Fit, fit_prediction, fit_with_noise_held
 from diffbot_sim.identification.predictor import MAX_STEP
@@ -44,9 +46,5 @@ def reduce(fit: Fit, name: str) -> Fit:
     """Fit the structure that lacks one of the effects."""
     kinds = tuple(kind for kind in fit.space.kinds if kind.name != name)
     space = Space(fit.space.declared, kinds)
-    kept = [
-        index
-        for index, coordinate in enumerate(fit.space.coordinates)
-        if not coordinate.name.startswith(name + '.')
-    ]
-    return fit_prediction(space, fit.stretches, fit.u[kept], fit.gains, evaluations=10, rounds=2)
+    kept = np.delete(fit.u, fit.space.places(name))
+    return fit_prediction(space, fit.stretches, kept, fit.gains, evaluations=10, rounds=2)

@@ -69,6 +69,17 @@ class Space:
         """All coordinates: nominal, then effects."""
         return self.nominal + self.of_effects
 
+    def places(self, effect: str) -> list[int]:
+        """Return where the coordinates of an effect stand."""
+        names = (coordinate.name for coordinate in self.coordinates)
+        return [index for index, name in enumerate(names) if name.startswith(effect + '.')]
+
+    @property
+    def shapes(self) -> list[int]:
+        """Where moments, periods and the like stand: they mean nothing without an amount."""
+        shapes = {f'{kind.name}.{name}' for kind in self.kinds for name in kind.shape}
+        return [i for i, coordinate in enumerate(self.coordinates) if coordinate.name in shapes]
+
     def model(self, u: Array) -> Model:
         """Return the model at a point."""
         values = self.values(u)

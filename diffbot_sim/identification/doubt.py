@@ -78,16 +78,16 @@ def _outdone(rest: Fit, final: Fit, kind: type[Effect]) -> Dependence | None:
     so that both sides of the comparison err alike.
     """
     screen = Screen(rest)
-    size = float(np.log(rest.whitened.size))
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
-    named = max(worth, screen.score(kind).ratio) - len(kind.specs()) * size
+    named = max(worth, screen.score(kind).ratio)
+    named -= len(kind.specs()) * float(np.log(rest.whitened.size))
     best = dependences(screen)[0]
-    cost = len(best.amounts) * size
-    if best.fall - cost < named + OUTDONE or best.p_block > BLOCK_LEVEL:
+    if worth_of(best, rest) < named + OUTDONE or best.p_block > BLOCK_LEVEL:
         return None
-    left = explained_by(Screen(final), again(best.basis, final, final.stretches)).fall
-    taken = best.fall - left
-    return best if left - cost > OUTDONE and taken > TAKEN_SHARE * worth else None
+    left = explained_by(Screen(final), again(best.basis, final, final.stretches))
+    taken = best.fall - left.fall
+    stands = worth_of(left, final) <= OUTDONE or taken <= TAKEN_SHARE * worth
+    return None if stands else best
 
 
 def _free_form_of(
@@ -106,8 +106,7 @@ def _free_form_of(
 
 def _imitated(fit: Fit, kind: type[Effect], basis: Basis) -> float:
     """Return the share of what an effect does, to first order, that a free form can do as well."""
-    names = [coordinate.name for coordinate in fit.space.coordinates]
-    own = [i for i, name in enumerate(names) if name.startswith(kind.name + '.')]
+    own = fit.space.places(kind.name)
     departure = (fit.u - fit.space.prior())[own]
     others = np.delete(fit.jacobian, own, axis=-1).reshape(fit.whitened.size, -1)
     free = sensitivity(fit, fit.stretches, basis).reshape(fit.whitened.size, -1)

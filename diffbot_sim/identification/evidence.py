@@ -50,9 +50,9 @@ def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
 def _amounts(small: Fit, large: Fit) -> list[int]:
     """Return where the larger fit has amounts that the smaller one lacks, shapes left out."""
     known = {coordinate.name for coordinate in small.space.coordinates}
-    shapes = {f'{kind.name}.{name}' for kind in large.space.kinds for name in kind.shape}
     names = [coordinate.name for coordinate in large.space.coordinates]
-    return [i for i, name in enumerate(names) if name not in known | shapes]
+    shapes = large.space.shapes
+    return [i for i, name in enumerate(names) if name not in known and i not in shapes]
 
 
 def delta_bic(first: Fit, second: Fit) -> float:

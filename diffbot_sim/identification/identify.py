@@ -1,6 +1,6 @@
 """From runs and a declared model to what the model lacks."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, replace
 
 from diffbot_sim.errors import DataError
@@ -19,6 +19,7 @@ from diffbot_sim.identification.result import (
     NOTHING_MISSING,
     UNEXPLAINED,
     Candidate,
+    Estimate,
     FoundEffect,
     Identification,
     Structure,
@@ -69,13 +70,13 @@ def identify(
     final = closed or final
     # Whatever gave the parameters, the noise model that the disturbances call for watches them.
     watched = replace(final, gains=selection.final.gains)
-    models = (declared, recalibrated.model, final.model)
+    models, found = (declared, recalibrated.model, final.model), estimates(final)
     comparisons = compare_models(declared, recalibrated.model, watched, held_out)
     errors = errors_of(comparisons, 'validate' if validate else 'held_out')
     progress('holding the runs against each other')
     return Identification(
         verdict=_verdict(selection, unexplained),
-        effects=_effects(selection, final),
+        effects=_effects(selection, found),
         unexplained=unexplained,
         nominal=estimates(recalibrated),
         errors=errors,
@@ -84,7 +85,7 @@ def identify(
         recalibrated=recalibrated.model,
         identified=final.model,
         comparisons=comparisons,
-        advice=advice(selection, estimates(final)),
+        advice=advice(selection, found),
         empirical=table_of(unexplained) if closed and unexplained else None,
         horizons=horizons(models, watched, held_out, errors),
         runs=agreement(selection.final, [*runs, *validate]),
@@ -128,9 +129,8 @@ def _verdict(selection: Selection, unexplained: Structure | None) -> str:
     return NOTHING_MISSING if unexplained is None else UNEXPLAINED
 
 
-def _effects(selection: Selection, final: Fit) -> tuple[FoundEffect, ...]:
+def _effects(selection: Selection, found: Mapping[str, Estimate]) -> tuple[FoundEffect, ...]:
     """Describe the effects found, the one with most evidence first."""
-    found = estimates(final)
     order = sorted(selection.support, key=lambda name: -selection.support[name].delta_bic)
     return tuple(
         FoundEffect(

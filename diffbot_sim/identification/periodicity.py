@@ -28,9 +28,7 @@ def wheel_orders(fit: Fit) -> tuple[float, ...]:
     spacing = 2.0 * np.pi / (FINENESS * float(np.ptp(angles, axis=0).max()))
     highest = min(HIGHEST, 2.0 * np.pi / (SAMPLES_PER_CYCLE * usual))
     orders = np.arange(LOWEST, highest, max(spacing, 1e-4))
-    if len(orders) < 3:
-        return ()
-    return _peaks(orders, _power(orders, angles, weights), SIDE_LOBES * FINENESS * spacing)
+    return _strongest(orders, angles, weights, spacing)
 
 
 def rates(fit: Fit) -> tuple[float, ...]:
@@ -47,10 +45,8 @@ def rates(fit: Fit) -> tuple[float, ...]:
     highest = min(HIGHEST_RATE, 1.0 / (SAMPLES_PER_CYCLE * interval))
     # Slower than this it would be a drift.
     cycles = np.arange(FEWEST_CYCLES * FINENESS * spacing, highest, spacing)
-    if len(cycles) < 3:
-        return ()
     turns = np.repeat(2.0 * np.pi * time[:, None], 2, axis=1)
-    return _peaks(cycles, _power(cycles, turns, errors), SIDE_LOBES * FINENESS * spacing)
+    return _strongest(cycles, turns, errors, spacing)
 
 
 def _by_wheel(fit: Fit) -> tuple[Array, Array]:
@@ -62,6 +58,13 @@ def _by_wheel(fit: Fit) -> tuple[Array, Array]:
         angles.append(travel(stretch, found.twist) @ mix / r)
         errors.append((found.innovation * stretch.used[:, None]) @ mix)
     return np.concatenate(angles), np.concatenate(errors)
+
+
+def _strongest(orders: Array, angles: Array, errors: Array, spacing: float) -> tuple[float, ...]:
+    """Return the orders whose waves are strongest in the errors; spacing: of a fine spectrum."""
+    if len(orders) < 3:
+        return ()
+    return _peaks(orders, _power(orders, angles, errors), SIDE_LOBES * FINENESS * spacing)
 
 
 def _power(orders: Array, angles: Array, errors: Array) -> Array:

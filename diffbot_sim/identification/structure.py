@@ -64,7 +64,7 @@ def dependences(screen: Screen) -> list[Dependence]:
     """Try every basis on the residual of a fit, the strongest first."""
     fit = screen.fit
     tried = [explained_by(screen, basis) for basis in bases(fit, fit.stretches)]
-    return sorted(tried, key=lambda d: d.fall - len(d.amounts) * np.log(fit.whitened.size))[::-1]
+    return sorted(tried, key=lambda dependence: worth_of(dependence, fit))[::-1]
 
 
 def find_dependence(screen: Screen, held_out: Sequence[Stretch]) -> Dependence | None:

@@ -23,15 +23,9 @@ NEAR_BOUND = 1e-3
 def estimates(fit: Fit) -> dict[str, Estimate]:
     """Return every fitted parameter by its name, with its 95 % interval."""
     spread = covariance(fit)
-    for index in _shapes(fit.space):
+    for index in fit.space.shapes:
         spread[index, index] = max(spread[index, index], (_reach(fit, index) / QUANTILE) ** 2)
     return estimates_at(fit.space, fit.u, spread)
-
-
-def _shapes(space: Space) -> list[int]:
-    """Return where moments, periods and the like stand among the coordinates."""
-    names = [coordinate.name for coordinate in space.coordinates]
-    return [names.index(f'{kind.name}.{name}') for kind in space.kinds for name in kind.shape]
 
 
 def _reach(fit: Fit, index: int) -> float:

@@ -55,8 +55,8 @@ VARIABLES = {
     'time': Variable('time [s]', lambda run: run.time),
 }
 ANGLES = ('heading', 'wheel_angle', 'rhythm')  # radians everywhere, degrees on paper
-# Of variables that only structure without a name is looked for in.
-LABELS = {
+# Of variables in which structure without a name is looked for; the others are those above.
+STRUCTURE_LABELS = {
     'cornering': 'v·ω [m/s²]',
     'rhythm': 'phase [°]',
     'wheel_angle': 'right wheel angle times the order [°]',
@@ -68,6 +68,12 @@ LABELS = {
     'place_x': 'x [m]',
     'place_y': 'y [m]',
 }
+
+
+def structure_label(variable: str) -> str:
+    """Return the label of what a structure without a name depends on."""
+    labels = {name: it.label for name, it in VARIABLES.items()} | STRUCTURE_LABELS
+    return labels.get(variable, variable)
 
 
 def residual(run: Comparison, model: str, axis: int) -> Array:

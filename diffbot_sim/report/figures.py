@@ -14,8 +14,8 @@ from diffbot_sim.report.dependence import (
     pooled,
     residual,
     strongest,
+    structure_label,
 )
-from diffbot_sim.report.dependence import LABELS as LABELS_OF_STRUCTURE
 from diffbot_sim.report.drawing import (
     COLOURS,
     DASHES,
@@ -134,11 +134,10 @@ def structure_figure(structure: Structure) -> Figure:
     y = structure.force
     colour = COLOURS['with_effects']
     data = [band(x, y - spread, y + spread, colour), line(x, y, 'estimate', colour)]
-    known = VARIABLES.get(structure.variable)
-    label = known.label if known else structure.variable
-    label = LABELS_OF_STRUCTURE.get(structure.variable, label)
     force = TORQUE if structure.axis == 'omega' else FORCE
-    look = layout(320, xaxis=axis(label), yaxis=axis(force), showlegend=False)
+    look = layout(
+        320, xaxis=axis(structure_label(structure.variable)), yaxis=axis(force), showlegend=False
+    )
     return Figure('What no effect accounts for', 'Estimate with its 95 % band.', data, look)
 
 
