@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diffbot_sim.identification.fitting import Fit, predictions
+from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.stretches import Stretch
-from diffbot_sim.identification.variables import VARIABLES, View
+from diffbot_sim.identification.variables import VARIABLES, View, views
 from diffbot_sim.records import Array
 
 # Unit of the amounts: this share of the largest command.
@@ -73,11 +73,11 @@ class Basis:
 
 def bases(fit: Fit, stretches: Sequence[Stretch]) -> list[Basis]:
     """Return every basis on these stretches."""
-    views = _views(fit, stretches)
+    seen = views(fit, stretches)
     unit = UNIT_SHARE * max(float(np.abs(s.run.commands.force).max()) for s in stretches)
     return [
         Basis(axis, name, grid, unit, fit.model.robot.half_separation, columns)
-        for name, grid, columns in _evaluated(views)
+        for name, grid, columns in _evaluated(seen)
         for axis in VARIABLES[name].axes
     ]
 
@@ -85,13 +85,8 @@ def bases(fit: Fit, stretches: Sequence[Stretch]) -> list[Basis]:
 def again(like: Basis, fit: Fit, stretches: Sequence[Stretch]) -> Basis:
     """Return the functions of a basis as another fit sees them, on any stretches."""
     form = VARIABLES[like.variable].form
-    columns = tuple(form.columns(view, like.grid) for view in _views(fit, stretches))
+    columns = tuple(form.columns(view, like.grid) for view in views(fit, stretches))
     return Basis(like.axis, like.variable, like.grid, like.unit, like.lever, columns)
-
-
-def _views(fit: Fit, stretches: Sequence[Stretch]) -> list[View]:
-    found = predictions(fit, stretches)
-    return [View(fit, s, p) for s, p in zip(stretches, found, strict=True)]
 
 
 def _evaluated(views: Sequence[View]) -> Iterator[tuple[str, Array, tuple[Array, ...]]]:

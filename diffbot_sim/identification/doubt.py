@@ -37,14 +37,20 @@ WORTHIER = 0.5
 def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection, Structure | None]:
     """Withdraw names that do not stand up to a free-form force; return what is left unnamed.
 
-    So goes a name that a free form outdoes, one whose law leaves much of what it is about, and the
-    weakest one where almost as much is left as it explains: it may be a part of that.
+    So goes a name that a free form outdoes, the weakest where one free form outdoes all together,
+    a name whose law leaves much of what it is about, and the weakest one where almost as much is
+    left as it explains: it may be a part of that.
     """
     final = selection.final
     for kind in final.space.kinds:
-        better = _outdone(selection.without[kind.name], final, kind)
+        better = _outdone(selection.without[kind.name], final, (kind,))
         if better is not None:
             return _without(selection, kind.name, describe(better, final), held_out)
+    worths = ((evidence.delta_bic, name) for name, evidence in selection.support.items())
+    worth, weakest = min(worths, default=(inf, ''))
+    better = _outdone(selection.base, final, final.space.kinds) if weakest else None
+    if better is not None:
+        return _without(selection, weakest, describe(better, final), held_out)
     left = find_dependence(Screen(final), held_out)
     if left is None:
         return selection, None
@@ -53,8 +59,6 @@ def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection,
         whole = _free_form_of(rest, final, kind, left)
         if whole is not None:
             return _without(selection, kind.name, describe(whole, rest), held_out)
-    worths = ((evidence.delta_bic, name) for name, evidence in selection.support.items())
-    worth, weakest = min(worths, default=(inf, ''))
     if WORTHIER * worth > worth_of(left, final):
         return selection, describe(left, final)
     return _without(selection, weakest, describe(left, final), held_out)
@@ -68,10 +72,10 @@ def _without(
     return selection, structure or instead
 
 
-def _outdone(rest: Fit, final: Fit, kind: type[Effect]) -> Dependence | None:
-    """Return a free-form force of which an effect captures a part only, if there is one.
+def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence | None:
+    """Return a free-form force of which effects capture a part only, if there is one.
 
-    rest: the fit that lacks the effect, final: the one that has it. An effect of the right kind
+    rest: the fit that lacks the effects, final: the one that has them. An effect of the right kind
     needs fewer parameters than any free form, and leaves nothing of it. One that only resembles
     what acts is outdone, takes its worth from the free form, and leaves the rest of it. Structure
     that is there with and without the effect says nothing against its name. All to first order,
@@ -79,8 +83,8 @@ def _outdone(rest: Fit, final: Fit, kind: type[Effect]) -> Dependence | None:
     """
     screen = Screen(rest)
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
-    named = max(worth, screen.score(kind).ratio)
-    named -= len(kind.specs()) * float(np.log(rest.whitened.size))
+    named = max(worth, *(screen.score(kind).ratio for kind in kinds))
+    named -= sum(len(kind.specs()) for kind in kinds) * float(np.log(rest.whitened.size))
     best = dependences(screen)[0]
     if worth_of(best, rest) < named + OUTDONE or best.p_block > BLOCK_LEVEL:
         return None

@@ -11,6 +11,7 @@ from scipy import stats
 from diffbot_sim.identification.coordinates import Space, point_of
 from diffbot_sim.identification.fitting import Fit, each, influence, whitened
 from diffbot_sim.identification.periodicity import wheel_orders
+from diffbot_sim.identification.variables import views
 from diffbot_sim.physics.effects import Effect, Excitation
 from diffbot_sim.records import Array
 
@@ -100,11 +101,12 @@ class Screen:
     @cached_property
     def drive(self) -> Excitation:
         """What the fitted stretches offer to starting points."""
-        stretches = self.fit.stretches
+        stretches, seen = self.fit.stretches, views(self.fit, self.fit.stretches)
         return Excitation(
             force=max(float(np.abs(s.run.commands.force).max()) for s in stretches),
             duration=max(float(s.time[-1]) for s in stretches),
             orders=wheel_orders(self.fit),
+            power=max(0.01, *(float((v.force * v.wheel_speed).max()) for v in seen)),
         )
 
     def _amounts(self, space: Space, kind: type[Effect], at: Array) -> '_Option':

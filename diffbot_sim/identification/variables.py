@@ -12,7 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from diffbot_sim.identification.fitting import Fit
+from diffbot_sim.identification.fitting import Fit, predictions
 from diffbot_sim.identification.periodicity import rates, wheel_orders
 from diffbot_sim.identification.predictor import Prediction
 from diffbot_sim.identification.stretches import Stretch, travel
@@ -79,6 +79,12 @@ class View:
             for lag in (first, last)
         ]
         return np.asarray((ends[0] - ends[1]) / (last - first))
+
+
+def views(fit: Fit, stretches: Sequence[Stretch]) -> list[View]:
+    """Return stretches as a fit sees them."""
+    found = predictions(fit, stretches)
+    return [View(fit, s, p) for s, p in zip(stretches, found, strict=True)]
 
 
 # What a variable is at every sample, shape (k,) or (k, 2).

@@ -142,8 +142,8 @@ def _laws(params, states, at, inputs, right, left):  # type: ignore[no-untyped-d
     traction = drive(params, states, at, Traction(inputs.right, inputs.left))
     load = push(params, states, at, Load(inputs.force, inputs.torque, 0.0, 0.0, 0.0))
     balance = weigh(params, states, at, nominal_balance(params, traction, load))
-    law_right = rub(params, states, at, nominal_law(params, 1.0, right))
-    law_left = rub(params, states, at, nominal_law(params, -1.0, left))
+    law_right = rub(params, states, at, nominal_law(params, 1.0, right, traction.right))
+    law_left = rub(params, states, at, nominal_law(params, -1.0, left, traction.left))
     return gather(params, traction, load, balance, law_right, law_left)
 
 

@@ -44,9 +44,10 @@ class Instant(NamedTuple):
 
 
 @compiled
-def nominal_law(params: Array, side: float, direction: float) -> Law:
+def nominal_law(params: Array, side: float, direction: float, traction: float) -> Law:
     """Return the friction law that both wheels share, for one of them."""
-    return Law(side, direction, params[4], params[5], params[6], params[7], params[8])
+    own = (params[4], params[5], params[6], params[7], params[8])
+    return Law(side, direction, traction, *own)
 
 
 @compiled

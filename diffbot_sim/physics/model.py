@@ -38,6 +38,7 @@ class Model:
     def pack(self) -> Array:
         """Return the numbers that the compiled code reads: m, J, b, r, the law, the effects."""
         robot, law = self.robot, self.friction.law()
+        rubbing = (law.static, law.coulomb, law.excess, law.viscous, law.stribeck)
         body = (robot.mass, robot.inertia, robot.half_separation, robot.wheel_radius)
         tail = [value for effect in self.effects for value in effect.values]
-        return np.array([*body, *law[2:], *tail], dtype=np.float64)
+        return np.array([*body, *rubbing, *tail], dtype=np.float64)

@@ -52,13 +52,15 @@ class Traction(NamedTuple):
 class Law(NamedTuple):
     """Stage WHEEL_FRICTION: eq. (13) for one wheel in one direction of rolling.
 
-    side is +1 for the right wheel and -1 for the left; direction is +1 forward, -1 backward.
+    side is +1 for the right wheel and -1 for the left; direction is +1 forward, -1 backward;
+    traction is the force that drives the wheel [N].
     |F_fr| = coulomb + excess·exp(-stribeck·|v|) + viscous·|v| while rolling, and at most
     static at rest; static, coulomb and excess [N], viscous [N·s/m], stribeck [s/m].
     """
 
     side: float
     direction: float
+    traction: float
     static: float
     coulomb: float
     excess: float
@@ -102,6 +104,7 @@ def scaled(law: Law, dry: float, viscous: float) -> Law:
     return Law(
         law.side,
         law.direction,
+        law.traction,
         law.static * dry,
         law.coulomb * dry,
         law.excess * dry,

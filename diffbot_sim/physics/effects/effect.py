@@ -12,12 +12,13 @@ class Excitation(NamedTuple):
     """What a recorded drive offers, for fits whose starting points depend on it.
 
     force: largest command [N]; duration: of the longest run [s]; orders: cycles per wheel
-    revolution at which the residual is strongest.
+    revolution at which the residual is strongest; power: largest of command times speed [W].
     """
 
     force: float
     duration: float
     orders: tuple[float, ...] = ()
+    power: float = 100.0
 
 
 @dataclass(frozen=True)

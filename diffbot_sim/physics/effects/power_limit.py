@@ -1,0 +1,60 @@
+"""A drive that gives its full force at low speed only."""
+
+from dataclasses import dataclass
+
+from diffbot_sim.parameters import parameter
+from diffbot_sim.physics.compiled import compiled
+from diffbot_sim.physics.effects.effect import Effect, Excitation
+from diffbot_sim.physics.stages import Motion, Stage, Traction
+
+# Shares of the largest power at which the limit may lie.
+SHARES = (0.85, 0.6, 0.35)
+# At a power just of the limit 1 - 2^(-1/8), 8 %, is missing.
+SHARPNESS = 8
+
+
+@compiled
+def weakened(force: float, speed: float, limit: float) -> float:
+    """Return a force [N] that does hardly more work than the limit [W]; braking is not limited.
+
+    The bend is rounded: one that is sharp in speed would cost the integrator its order.
+    """
+    asked = max(force * speed, 0.0) / limit
+    return float(force / (1.0 + asked**SHARPNESS) ** (1.0 / SHARPNESS))
+
+
+@compiled
+def limited(at: Motion, traction: Traction, limit: float) -> Traction:
+    """Limit the power of each wheel."""
+    return Traction(
+        weakened(traction.right, at.speed_right, limit),
+        weakened(traction.left, at.speed_left, limit),
+    )
+
+
+@dataclass(frozen=True)
+class PowerLimit(Effect):
+    """Force F / (1 + (F v / P)^8)^(1/8) on each wheel while it drives: at most P/|v|."""
+
+    name = 'power_limit'
+    meaning = 'power of each wheel is limited, so its force falls as it gets faster'
+    source = 'constant-power range of electric traction drives (Larminie and Lowry, 2012)'
+    stage = Stage.ACTUATOR
+    kernel = limited
+    guesses = ((10.0,), (3.0,))
+    excitation = 'the strongest commands, held until the robot is fast'
+
+    power: float = parameter(
+        1e9,
+        unit='W',
+        low=1e-3,
+        high=1e9,
+        scale=10.0,
+        reciprocal=True,
+        meaning='largest power P of a wheel',
+    )
+
+    @classmethod
+    def starts(cls, drive: Excitation) -> tuple[tuple[float, ...], ...]:
+        """Try shares of the largest power asked for."""
+        return tuple((share * drive.power,) for share in SHARES)

@@ -1,0 +1,22 @@
+"""power_limit: a body under constant power has the kinetic energy P t."""
+
+import numpy as np
+from motion import push
+
+from diffbot_sim.physics import Friction, Model
+from diffbot_sim.physics.effects.power_limit import PowerLimit
+from diffbot_sim.physics.state import State
+
+LIMITED = Model(friction=Friction('none'), effects=(PowerLimit(4.0),))
+
+
+def test_speed_grows_with_the_root_of_time():
+    run = push(LIMITED, 50.0, 50.0, 3.0, start=State(v=1.0))
+    expected = np.sqrt(1.0 + 2.0 * 8.0 / LIMITED.robot.mass * run.time)
+    np.testing.assert_allclose(run.twist[:, 0], expected, rtol=1e-6)
+
+
+def test_braking_and_slow_wheels_get_what_is_asked():
+    for force, v in ((-50.0, 1.0), (50.0, 1e-4)):
+        run = push(LIMITED, force, force, 0.01, every=0.01, start=State(v=v))
+        np.testing.assert_array_equal(run.traction[0], force)
