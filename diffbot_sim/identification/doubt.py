@@ -28,8 +28,8 @@ OUTDONE = 10.0
 # An effect that takes this share of its worth from a free form stands or falls with it.
 TAKEN_SHARE = 0.5
 # A law of the right form leaves less than this share of what it explains to a free form that can
-# do this share of what it does.
-LEFT_SHARE, IMITATED_SHARE = 0.1, 0.5
+# do this share of what it does, as both are seen through few knots.
+LEFT_SHARE, IMITATED_SHARE = 0.1, 0.3
 # A name is believed beside structure without a name that explains less than this share of it.
 WORTHIER = 0.5
 
@@ -103,7 +103,9 @@ def _free_form_of(
     it. Of a law of the right form no free form that can imitate it finds much left.
     """
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
-    if left.fall < LEFT_SHARE * worth or _imitated(final, kind, left.basis) < IMITATED_SHARE:
+    # Neither says all: first order promises much, or little, where parameters would move far.
+    much = max(left.fall, explained_by(Screen(final), left.basis).fall)
+    if much < LEFT_SHARE * worth or _imitated(final, kind, left.basis) < IMITATED_SHARE:
         return None
     return explained_by(Screen(rest), again(left.basis, rest, rest.stretches))
 

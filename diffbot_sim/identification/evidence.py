@@ -109,6 +109,21 @@ def sandwich(jacobian: Array, errors: Array) -> Array:
     return np.asarray(bread @ (scores.T @ scores * BLOCKS / (BLOCKS - 1)) @ bread)
 
 
+def jackknife(fit: Fit) -> Array:
+    """Return the covariance of (u, gains) from fits that lack a block each, to first order.
+
+    Shape (p, p). Unlike the sandwich it does not shrink as parameters use up the blocks: CR3 of
+    MacKinnon, Nielsen, Webb (2023). What one block alone tells is wide.
+    """
+    flat = fit.jacobian.reshape(len(fit.whitened), 2, -1)
+    size = flat.shape[-1]
+    whole = np.tensordot(flat, flat, ((0, 1), (0, 1))) + np.eye(size)
+    scores = block_scores(flat, fit.whitened)
+    parts = [np.tensordot(j, j, ((0, 1), (0, 1))) for j in np.array_split(flat, BLOCKS)]
+    moved = [np.linalg.solve(whole - p, s) for p, s in zip(parts, scores, strict=True)]
+    return np.asarray(np.transpose(moved) @ moved * (BLOCKS - 1) / BLOCKS)
+
+
 def block_scores(jacobian: Array, errors: Array) -> Array:
     """Return J'e of each block, shape (BLOCKS, p): jacobian (n, ..., p), errors (n, ...)."""
     parts = (np.array_split(values, BLOCKS) for values in (jacobian, influence(errors)))

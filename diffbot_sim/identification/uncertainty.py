@@ -1,4 +1,4 @@
-"""Intervals: block-robust covariance of the fit, carried over to the parameters' own units."""
+"""Intervals: covariance of the fit over blocks of the run, carried over to the parameters' own units."""
 
 from dataclasses import replace
 
@@ -6,7 +6,7 @@ import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.evidence import BLOCKS, covariance
+from diffbot_sim.identification.evidence import BLOCKS, jackknife
 from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.result import Estimate
 from diffbot_sim.records import Array
@@ -22,7 +22,7 @@ NEAR_BOUND = 1e-3
 
 def estimates(fit: Fit) -> dict[str, Estimate]:
     """Return every fitted parameter by its name, with its 95 % interval."""
-    spread = covariance(fit)
+    spread = jackknife(fit)
     for index in fit.space.shapes:
         spread[index, index] = max(spread[index, index], (_reach(fit, index) / QUANTILE) ** 2)
     return estimates_at(fit.space, fit.u, spread)
