@@ -1,4 +1,4 @@
-"""Intervals: covariance of the fit over blocks of the run, carried over to the parameters' own units."""
+"""Intervals: covariance of the fit over blocks of the run, carried over to parameters."""
 
 from dataclasses import replace
 
