@@ -77,9 +77,13 @@ class Robot:
 
     def listen(self, kind: Any, topic: str) -> None:
         """Collect a topic's messages from now on; return when the first one has come."""
+        self.collect(kind, topic)
+        self.until(lambda: self.heard[topic])
+
+    def collect(self, kind: Any, topic: str) -> None:
+        """Collect a topic's messages from now on."""
         self.heard[topic] = []
         self.node.create_subscription(kind, topic, self.heard[topic].append, 100)
-        self.until(lambda: self.heard[topic])
 
     def until(self, reached: Callable[[], Any], patience: float = PATIENCE) -> None:
         """Spin until something is so; fail when it takes too long."""
