@@ -13,7 +13,7 @@ from diffbot_sim.physics.effects import Effect, library
 TARGET = Path(__file__).with_name('parameters.md')
 HEAD = """# All parameters
 
-Written by `python docs/make_parameters.py` from the declarations in the code. A nested name such as
+Written by `python docs/make_parameters.py` from the declarations in the code. A nested name like
 `pi.kp` is a nested mapping in YAML. *Live* ones can be changed while the node runs:
 `ros2 param set /simulator robot.mass 12.0`. What is not valid is refused with the reason.
 """
