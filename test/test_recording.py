@@ -10,7 +10,8 @@ from rosbags.rosbag2 import Reader
 from std_srvs.srv import Empty
 
 from diffbot_sim.bags import read_run
-from diffbot_sim.bags.raw import Raw, RawWriter
+from diffbot_sim.bags.raw import Raw
+from diffbot_sim.bags.recording import RawWriter
 from diffbot_sim.errors import BagError
 from diffbot_sim.nodes.conversions import pose_of, twist_of
 from diffbot_sim.physics import Model, simulate
