@@ -1,6 +1,8 @@
 """`recover`: everything up to the cut comes back, whatever was cut."""
 
+import sqlite3
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 from shutil import copytree
 
@@ -126,6 +128,18 @@ def test_what_cannot_be_recovered_is_told(tmp_path):
     assert 'no message in it' in refused(lambda: recover(tmp_path / 'words.db3', out))
     assert 'there is no such bag' in refused(lambda: recover(tmp_path / 'none', out))
     assert 'not a bag' in refused(lambda: recover(Path(__file__), out))
+
+
+def test_definitions_that_are_missing_are_those_of_ros(tmp_path):
+    (file,) = abandoned(tmp_path / 'cut', 'sqlite3').iterdir()
+    with closing(sqlite3.connect(file)) as old:
+        old.execute('DELETE FROM message_definitions')
+        old.execute("UPDATE topics SET type = 'tank_msgs/msg/Level' WHERE name = '/odom'")
+        old.commit()
+    recovery = recover(file, tmp_path / 'whole')
+    assert recovery.left_out == ('/odom (tank_msgs/msg/Level)',)
+    with Reader(tmp_path / 'whole') as reader:
+        assert 'Wrench wrench' in reader.connections[0].msgdef.data
 
 
 def test_a_type_that_is_not_of_ros_comes_back_by_the_definition_in_the_bag(tmp_path):

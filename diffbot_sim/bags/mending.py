@@ -24,7 +24,8 @@ def mend(file: Path, copy: Path) -> None:
 
 
 def _mend_mcap(file: Path, copy: Path) -> None:
-    schemas, channels = {0: 0}, {}
+    schemas: dict[int, int] = {}
+    channels: dict[int, int] = {}
     with copy.open('wb') as target:
         writer = Writer(target, compression=CompressionType.NONE)
         writer.start('ros2')
@@ -34,11 +35,11 @@ def _mend_mcap(file: Path, copy: Path) -> None:
                     record.name, record.encoding, record.data
                 )
             elif isinstance(record, Channel) and record.id not in channels:
-                kind = schemas[record.schema_id]
+                kind = schemas.get(record.schema_id, 0)
                 channels[record.id] = writer.register_channel(
                     record.topic, record.message_encoding, kind, record.metadata
                 )
-            elif isinstance(record, Message):
+            elif isinstance(record, Message) and record.channel_id in channels:
                 channel = channels[record.channel_id]
                 writer.add_message(channel, record.log_time, record.data, record.publish_time)
         writer.finish()  # type: ignore[no-untyped-call]

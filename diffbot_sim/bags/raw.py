@@ -44,11 +44,17 @@ def topics_in(bag: Path) -> dict[str, str]:
         return {item.topic: item.msgtype for item in reader.connections if item.msgcount}
 
 
-def raw_messages(bag: Path, topics: Collection[str]) -> Iterator[Raw]:
-    """Read the messages of some topics in the order of their receipt; raises BagError."""
+def span_of(bag: Path) -> tuple[int, int]:
+    """Return when the first and the last message of a bag came [ns]; raises BagError."""
+    with _opened(bag) as reader:
+        return reader.start_time, reader.end_time - 1
+
+
+def raw_messages(bag: Path, topics: Collection[str], start: int = 0) -> Iterator[Raw]:
+    """Read the messages of some topics from a moment [ns] on, as received; raises BagError."""
     with _opened(bag) as reader:
         sources = [item for item in reader.connections if item.topic in topics]
-        for source, stamp, data in reader.messages(sources) if sources else ():
+        for source, stamp, data in reader.messages(sources, start) if sources else ():
             yield Raw(stamp, source.topic, source.msgtype, data)
 
 

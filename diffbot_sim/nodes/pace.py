@@ -12,6 +12,10 @@ class Pace:
         self.period = period
         self._next = now
 
+    def left(self, now: float) -> float:
+        """Return how long [s] it takes from now [s] to the next tick."""
+        return self._next - now
+
     def due(self, now: float) -> tuple[int, int]:
         """Return how many ticks to make now [s], and how many are given up."""
         behind = max(int((now - self._next) / self.period) + 1, 0) if now >= self._next else 0
