@@ -136,10 +136,14 @@ def main(argv: list[str]) -> int:
     options.add_argument('--topics', nargs='+', metavar='TOPIC', help='topics to record')
     options.add_argument('-s', '--storage', choices=STORAGES, help='kind of file; default mcap')
     options.add_argument(
-        '-b', '--max-bag-size', type=int, metavar='BYTES', help='then a new file; 0 = never'
+        '-b',
+        '--max-bag-size',
+        type=int,
+        metavar='BYTES',
+        help='size that makes it start another file',
     )
     options.add_argument(
-        '-d', '--max-bag-duration', type=float, metavar='SECONDS', help='likewise, by time'
+        '-d', '--max-bag-duration', type=float, metavar='SECONDS', help='time, likewise'
     )
     chosen = overrides(RecorderSettings, parse(options, argv))
     return run(lambda: Recorder(chosen), argv)
