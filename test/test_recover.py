@@ -61,7 +61,7 @@ def test_all_that_was_flushed_comes_back(tmp_path, storage):
     assert quality.reliability.name == 'BEST_EFFORT'
 
 
-@pytest.mark.parametrize('share', [0.5, 0.8, 0.99])
+@pytest.mark.parametrize('share', [0.5, 0.67, 0.8, 0.99])
 @pytest.mark.parametrize('storage', ['mcap', 'sqlite3'])
 def test_a_file_cut_anywhere_gives_all_before_the_cut(tmp_path, storage, share):
     (file,) = abandoned(tmp_path / 'cut', storage).iterdir()

@@ -3,7 +3,7 @@
 import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, suppress
-from io import BufferedReader, BytesIO, FileIO
+from io import SEEK_END, BufferedReader, BytesIO, FileIO
 from pathlib import Path
 from shutil import copyfile
 
@@ -85,6 +85,7 @@ def _mend_sqlite3(file: Path, copy: Path) -> None:
     for end in ('', *BESIDE):  # opening a database may change it, so never open the only one
         with suppress(FileNotFoundError):
             copyfile(f'{file}{end}', f'{torn}{end}')
+    _drop_half_page(torn)
     with closing(sqlite3.connect(torn)) as old, closing(sqlite3.connect(copy)) as new:
         with suppress(sqlite3.Error):
             old.execute('PRAGMA writable_schema = ON')  # opens a file that lacks its last pages
@@ -93,6 +94,15 @@ def _mend_sqlite3(file: Path, copy: Path) -> None:
                 new.execute(definition)
                 _copy_rows(old, new, name)
         new.commit()
+
+
+def _drop_half_page(database: Path) -> None:
+    """Cut off a page that is not all there: SQLite would take what it lacks for zeros."""
+    with database.open('r+b') as file:
+        page = int.from_bytes(file.read(18)[16:], 'big')
+        page = 2**16 if page == 1 else page  # which does not fit into two bytes
+        size = file.seek(0, SEEK_END)
+        file.truncate(size - size % max(page, 1))
 
 
 def _copy_rows(old: sqlite3.Connection, new: sqlite3.Connection, table: str) -> None:
