@@ -119,6 +119,10 @@ class Robot:
             seen += self.hear(1)
         return seen
 
+    def publish_force(self, side: str, message: WrenchStamped) -> None:
+        """Publish one command as it is."""
+        self._forces[side].publish(message)
+
     @contextmanager
     def publishing(self, topic: str, message: Any) -> Iterator[None]:
         """Publish a message at 20 Hz, whenever the node spins."""

@@ -11,7 +11,6 @@ from nav_msgs.msg import Odometry
 
 from diffbot_sim.nodes import conversions
 from diffbot_sim.nodes.odometer import Odometer
-from diffbot_sim.nodes.pace import CATCH_UP, Pace
 from diffbot_sim.nodes.settings import OdometryNoise
 
 NOISE = OdometryNoise(linear=0.1, angular=0.2, seed=3)
@@ -84,11 +83,3 @@ def test_noise_is_seeded_and_as_large_as_its_covariance_says():
 
 def test_without_noise_a_resting_robot_measures_exactly_zero():
     assert Odometer(OdometryNoise(), 1e-9).measure((0.0, 0.0)) == (0.0, 0.0)
-
-
-def test_late_ticks_are_made_up_for_within_a_limit():
-    pace = Pace(0.01, now=0.0)
-    assert pace.due(0.0) == (1, 0)
-    assert pace.due(0.005) == (0, 0)
-    assert pace.due(0.035) == (3, 0)
-    assert pace.due(1.005) == (CATCH_UP, 97 - CATCH_UP)

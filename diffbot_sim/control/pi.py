@@ -26,15 +26,21 @@ class Gains:
 
 
 def control(
-    gains: Gains, integral: float, reference: float, measured: float, dt: float
+    gains: Gains,
+    integral: float,
+    reference: float,
+    measured: float,
+    dt: float,
+    in_advance: float = 0.0,
 ) -> tuple[float, float]:
     """Return the force [N] and the integral part [N] to hand in next time.
 
-    reference and measured are wheel speeds [rad/s]; dt [s] has passed since the last call.
+    reference and measured are wheel speeds [rad/s]; dt [s] has passed since the last call;
+    in_advance: a force [N] that is given whatever the error.
     """
     error = reference - measured
     integral += gains.ki * error * dt
-    wanted = gains.kp * error + integral
+    wanted = gains.kp * error + integral + in_advance
     force = min(max(wanted, -gains.force_limit), gains.force_limit)
     # More than the whole excess would overshoot, so a long dt unwinds it at once.
     return force, integral + (force - wanted) * min(dt / gains.tracking_time, 1.0)

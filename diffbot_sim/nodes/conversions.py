@@ -6,6 +6,7 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import (
+    PoseWithCovarianceStamped,
     TransformStamped,
     Twist,
     TwistStamped,
@@ -69,6 +70,15 @@ def twist(v: float, omega: float) -> Twist:
     return message
 
 
+def wheel_rate(stamp: int, frame: str, rate: float) -> TwistStamped:
+    """Return the angular speed [rad/s] of a wheel, positive forward."""
+    message = TwistStamped()
+    message.header.stamp = time(stamp)
+    message.header.frame_id = frame
+    message.twist.angular.y = rate
+    return message
+
+
 def wheel_rate_of(message: TwistStamped) -> float:
     """Return the angular speed [rad/s] of a wheel, positive forward."""
     return float(message.twist.angular.y)
@@ -94,7 +104,13 @@ def odometry(
     return message
 
 
-def pose_of(message: Odometry) -> tuple[float, float, float]:
+def frame_prefix_of(message: Odometry) -> str:
+    """Return what stands before the names of a robot's frames."""
+    frame = message.child_frame_id
+    return frame.removesuffix(BODY) if frame.endswith(BODY) else ''
+
+
+def pose_of(message: Odometry | PoseWithCovarianceStamped) -> tuple[float, float, float]:
     """Return x, y [m] and the heading [rad, -π to π]."""
     place, turn = message.pose.pose.position, message.pose.pose.orientation
     return place.x, place.y, atan2(2.0 * turn.w * turn.z, turn.w**2 - turn.z**2)

@@ -1,6 +1,6 @@
 """Drive a robot so that its bag shows everything: cmd_vel with steps, arcs, turns and stops."""
 
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -26,7 +26,9 @@ class Driver(Node):
             chosen.seed, chosen.duration, chosen.fastest, chosen.fastest_turn
         )
         self._first: int | None = None
-        self._command = self.create_publisher(Twist, 'cmd_vel', DEPTH)
+        self._stamped = chosen.stamped
+        kind = TwistStamped if chosen.stamped else Twist
+        self._command = self.create_publisher(kind, 'cmd_vel', DEPTH)
         self.create_subscription(Odometry, 'odom', self._on_odometry, DEPTH)
         self.get_logger().info(f'driving for {self._duration:g} s once odometry comes')
 
@@ -34,7 +36,10 @@ class Driver(Node):
         stamp = conversions.nanoseconds(message.header.stamp)
         self._first = stamp if self._first is None else self._first
         elapsed = (stamp - self._first) / 1e9
-        self._command.publish(conversions.twist(*twist_at(self._segments, elapsed)))
+        command = conversions.twist(*twist_at(self._segments, elapsed))
+        if self._stamped:
+            command = TwistStamped(header=message.header, twist=command)
+        self._command.publish(command)
         if elapsed > self._duration:
             self.get_logger().info('the drive is over')
             raise ExternalShutdownException

@@ -11,6 +11,7 @@ from sensor_msgs.msg import JointState
 from diffbot_sim.nodes import conversions
 from diffbot_sim.nodes.conversions import Pair
 from diffbot_sim.nodes.odometer import Odometer
+from diffbot_sim.nodes.settings import SimulatorSettings
 from diffbot_sim.physics import Plant
 
 SIDES = ('right', 'left')
@@ -22,37 +23,52 @@ KEPT = 100
 class Outputs:
     """The publishers of the simulator; those for clock and tf where they are asked for."""
 
-    def __init__(self, node: Node, with_clock: bool, with_tf: bool) -> None:
+    def __init__(self, node: Node, settings: SimulatorSettings) -> None:
+        self._prefix = settings.frame_prefix
         self._force = _per_wheel(node, 'force')
         self._friction = _per_wheel(node, 'friction')
         self._odom = node.create_publisher(Odometry, 'odom', KEPT)
         self._joints = node.create_publisher(JointState, 'joint_states', KEPT)
-        self._clock = node.create_publisher(Clock, '/clock', DEPTH) if with_clock else None
-        self._tf = _tf_publisher(node) if with_tf else None
+        self._clock = (
+            node.create_publisher(Clock, '/clock', DEPTH) if settings.publish_clock else None
+        )
+        self._tf = _tf_publisher(node) if settings.enable_odom_tf else None
+        self._last = Odometry()
 
-    def publish(self, stamp: int, plant: Plant, force: Pair, odometer: Odometer) -> None:
-        """Tell the plant's state at a stamp [ns], and the forces [N] held from there on."""
+    @property
+    def world(self) -> str:
+        """The frame that poses are told in."""
+        return self._prefix + conversions.WORLD
+
+    def publish_motion(self, stamp: int, plant: Plant, odometer: Odometer) -> None:
+        """Tell the true pose with the measured twist at a stamp [ns]."""
         if self._clock:
             self._clock.publish(conversions.clock(stamp))
-        for values, publishers in ((force, self._force), (plant.friction, self._friction)):
-            for side, value, publisher in zip(SIDES, values, publishers, strict=True):
-                publisher.publish(conversions.wrench(stamp, f'{side}_wheel_contact', value))
-        self._publish_motion(stamp, plant, odometer)
-        self._publish_joints(stamp, plant, force)
-
-    def _publish_motion(self, stamp: int, plant: Plant, odometer: Odometer) -> None:
-        """Publish the true pose with the measured twist."""
-        message = conversions.odometry(
+        self._last = conversions.odometry(
             stamp,
             plant.pose,
             odometer.measure(plant.twist),
             odometer.pose_covariance,
             odometer.twist_covariance,
         )
-        self._odom.publish(message)
+        self._last.header.frame_id = self.world
+        self._last.child_frame_id = self._prefix + conversions.BODY
+        self.repeat()
+
+    def repeat(self) -> None:
+        """Tell the last motion, again."""
+        self._odom.publish(self._last)
         if self._tf:
             transforms, publisher = self._tf
-            publisher.publish(transforms(transforms=[conversions.transform(message)]))
+            publisher.publish(transforms(transforms=[conversions.transform(self._last)]))
+
+    def publish_forces(self, stamp: int, plant: Plant, force: Pair) -> None:
+        """Tell the forces [N] held from a stamp [ns] on, what they meet, and the wheels."""
+        for values, publishers in ((force, self._force), (plant.friction, self._friction)):
+            for side, value, publisher in zip(SIDES, values, publishers, strict=True):
+                frame = f'{self._prefix}{side}_wheel_contact'
+                publisher.publish(conversions.wrench(stamp, frame, value))
+        self._publish_joints(stamp, plant, force)
 
     def _publish_joints(self, stamp: int, plant: Plant, force: Pair) -> None:
         radius = plant.model.robot.wheel_radius

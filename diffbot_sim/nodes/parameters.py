@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields, is_dataclass
+from itertools import takewhile
 from typing import Any, Generic, TypeVar
 
 from rcl_interfaces.msg import (
@@ -98,7 +99,22 @@ class UnknownParameterError(ParameterNotDeclaredException):
     """Takes the place of rclpy's own, which forgets to say the name."""
 
     def __init__(self, name: str, known: Iterable[str]) -> None:
-        Exception.__init__(self, f'{name}: unknown parameter. {suggestion(name, list(known))}')
+        part, names = beside(name, known)
+        Exception.__init__(self, f'{name}: unknown parameter. {suggestion(part, names)}')
+
+
+def beside(name: str, known: Iterable[str]) -> tuple[str, list[str]]:
+    """Return the first part of a dotted name that is unknown, and what is known in its place."""
+    paths, path = [item.split('.') for item in known], name.split('.')
+    depth = min(max(_shared(path, other) for other in paths), len(path) - 1)
+    place = [other[: depth + 1] for other in paths if other[:depth] == path[:depth]]
+    return '.'.join(path[: depth + 1]), list(dict.fromkeys(map('.'.join, place)))
+
+
+def _shared(path: list[str], other: list[str]) -> int:
+    """Count the parts that two names begin with alike."""
+    alike = takewhile(lambda pair: pair[0] == pair[1], zip(path, other, strict=False))
+    return len(list(alike))
 
 
 class Live(Generic[Result]):

@@ -8,8 +8,10 @@ from nav_msgs.msg import Odometry
 from rclpy.node import Node
 
 from diffbot_sim.control.held import NANOSECONDS, Held
-from diffbot_sim.control.pi import control, wheel_rates
+from diffbot_sim.control.loop import InnerLoop
+from diffbot_sim.control.pi import wheel_rates
 from diffbot_sim.nodes import conversions
+from diffbot_sim.nodes.conversions import Pair
 from diffbot_sim.nodes.outputs import DEPTH, SIDES
 from diffbot_sim.nodes.parameters import Live, Values, build, table
 from diffbot_sim.nodes.running import parse, parser, run
@@ -30,18 +32,24 @@ class PiController(Node):
         known = table(ControllerSettings)
         live = Live(self, known, self._make, self._apply, ControllerSettings.fixed)
         self._settings = live.value
+        self._loop = InnerLoop()
         self._stamp: int | None = None
         self._references = dict.fromkeys(SIDES, Held())
-        self._integrals = dict.fromkeys(SIDES, 0.0)
+        self._unanswered: Odometry | None = None
+        self._twist_stamp = 0
         self._connect()
         self.get_logger().info('ready')
 
     def _connect(self) -> None:
         command = TwistStamped if self._settings.enable_stamped_cmd_vel else Twist
-        self._forces = {}
+        self._forces, self._wanted, self._measured = {}, {}, {}
         for side in SIDES:
             wheel, act = f'{side}_wheel', partial(self._on_wheel_reference, side)
             self._forces[side] = self.create_publisher(WrenchStamped, f'{wheel}/force_cmd', DEPTH)
+            self._wanted[side] = self.create_publisher(
+                TwistStamped, f'{wheel}/velocity_reference', DEPTH
+            )
+            self._measured[side] = self.create_publisher(TwistStamped, f'{wheel}/velocity', DEPTH)
             self.create_subscription(TwistStamped, f'{wheel}/velocity_cmd', act, DEPTH)
         self.create_subscription(command, 'cmd_vel', self._on_twist, DEPTH)
         self.create_subscription(Odometry, 'odom', self._on_odometry, DEPTH)
@@ -49,8 +57,12 @@ class PiController(Node):
     def _on_twist(self, message: Twist | TwistStamped) -> None:
         v, omega = conversions.twist_of(message)
         if self._accepts('cmd_vel', v, omega):
-            for side, rate in zip(SIDES, wheel_rates(v, omega, self._settings.robot), strict=True):
+            rates = wheel_rates(v, omega, self._settings.robot)
+            for side, rate in zip(SIDES, rates, strict=True):
                 self._references[side] = Held(rate, self._stamp or 0)
+            if isinstance(message, TwistStamped):
+                self._twist_stamp = conversions.nanoseconds(message.header.stamp)
+            self._answer()
 
     def _on_wheel_reference(self, side: str, message: TwistStamped) -> None:
         rate = conversions.wheel_rate_of(message)
@@ -58,30 +70,46 @@ class PiController(Node):
             self._references[side] = Held(rate, self._stamp or 0)
 
     def _on_odometry(self, message: Odometry) -> None:
-        v, omega = conversions.twist_of(message)
-        if not self._accepts('odom', v, omega):
+        if self._accepts('odom', *conversions.twist_of(message)):
+            self._unanswered = message
+            self._answer()
+
+    def _answer(self) -> None:
+        """Answer the last odometry; in lockstep only when the twist of its stamp has come."""
+        message = self._unanswered
+        if message is None:
             return
         stamp = conversions.nanoseconds(message.header.stamp)
+        if self._settings.lockstep and self._twist_stamp != stamp:
+            return
+        self._unanswered = None
         dt = self._advance(stamp)
-        for side, rate in zip(SIDES, wheel_rates(v, omega, self._settings.robot), strict=True):
-            force = self._control(side, rate, dt)
-            self._forces[side].publish(conversions.wrench(stamp, f'{side}_wheel_contact', force))
+        measured = wheel_rates(*conversions.twist_of(message), self._settings.robot)
+        turn = self._loop.turn(self._settings, self._wanted_rates(stamp), measured, dt)
+        self._publish(message, turn.force, turn.reference, measured)
 
     def _advance(self, stamp: int) -> float:
         """Return the time [s] since the last odometry; begin anew where time jumps back."""
         last, self._stamp = self._stamp, stamp
         if last is not None and stamp >= last:
             return min((stamp - last) / NANOSECONDS, LONGEST)
-        self._integrals = dict.fromkeys(SIDES, 0.0)
+        self._loop.reset()
         self._references = {s: Held(held.value, stamp) for s, held in self._references.items()}
         return 0.0
 
-    def _control(self, side: str, rate: float, dt: float) -> float:
-        reference = self._references[side].at(self._stamp or 0, self._settings.cmd_vel_timeout)
-        force, self._integrals[side] = control(
-            self._settings.pi, self._integrals[side], reference, rate, dt
-        )
-        return force
+    def _wanted_rates(self, stamp: int) -> Pair:
+        timeout = self._settings.cmd_vel_timeout
+        right, left = (self._references[side].at(stamp, timeout) for side in SIDES)
+        return right, left
+
+    def _publish(self, about: Odometry, force: Pair, reference: Pair, measured: Pair) -> None:
+        stamp = conversions.nanoseconds(about.header.stamp)
+        prefix = conversions.frame_prefix_of(about)
+        for side, *values in zip(SIDES, force, reference, measured, strict=True):
+            frame = f'{prefix}{side}_wheel_contact'
+            self._forces[side].publish(conversions.wrench(stamp, frame, values[0]))
+            self._wanted[side].publish(conversions.wheel_rate(stamp, frame, values[1]))
+            self._measured[side].publish(conversions.wheel_rate(stamp, frame, values[2]))
 
     def _accepts(self, topic: str, *values: float) -> bool:
         if all(map(isfinite, values)):

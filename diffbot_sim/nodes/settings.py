@@ -3,9 +3,9 @@
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from diffbot_sim.control.pi import Gains
+from diffbot_sim.control.loop import LoopSettings
+from diffbot_sim.errors import ConfigError
 from diffbot_sim.parameters import parameter
-from diffbot_sim.physics import Robot
 
 
 @dataclass(frozen=True)
@@ -22,6 +22,20 @@ class OdometryNoise:
 
 
 @dataclass(frozen=True)
+class InitialPose:
+    """Where the robot stands at the start and after a reset, at rest."""
+
+    x: float = parameter(0.0, unit='m', low=-1e6, high=1e6, meaning='place along the world x axis')
+    y: float = parameter(0.0, unit='m', low=-1e6, high=1e6, meaning='place along the world y axis')
+    yaw: float = parameter(0.0, unit='rad', low=-1e3, high=1e3, meaning='heading')
+
+    @property
+    def xy_yaw(self) -> tuple[float, float, float]:
+        """All three [m, m, rad]."""
+        return self.x, self.y, self.yaw
+
+
+@dataclass(frozen=True)
 class SimulatorSettings:
     """Rates, clock and sensors of the simulator. `fixed` ones cannot change while it runs."""
 
@@ -29,8 +43,13 @@ class SimulatorSettings:
         'publish_rate',
         'physics_step',
         'publish_clock',
+        'lockstep',
         'covariance_floor',
         'enable_odom_tf',
+        'frame_prefix',
+        'initial_pose.x',
+        'initial_pose.y',
+        'initial_pose.yaw',
     )
 
     publish_rate: float = parameter(
@@ -40,10 +59,17 @@ class SimulatorSettings:
         1e-3, unit='s', low=1e-6, high=0.1, meaning='longest step of the integrator'
     )
     real_time_factor: float = parameter(
-        1.0, low=1e-3, high=1e6, meaning='simulation time over wall time'
+        1.0,
+        low=0.0,
+        high=1e6,
+        meaning='simulation time over wall time; 0 = as fast as the machine can',
     )
     publish_clock: bool = parameter(
         False, meaning='publish /clock; simulation time then starts at 0'
+    )
+    lockstep: bool = parameter(
+        False,
+        meaning='time advances only when both wheels have been commanded, and starts at 0',
     )
     force_timeout: float = parameter(
         0.5,
@@ -59,14 +85,16 @@ class SimulatorSettings:
         meaning='least variance on the diagonals of the odometry covariances, in SI units',
     )
     enable_odom_tf: bool = parameter(False, meaning='publish tf from odom to base_link')
+    frame_prefix: str = parameter('', meaning='put before every frame name, such as robot1/')
+    initial_pose: InitialPose = field(default=InitialPose())
     odometry_noise: OdometryNoise = field(default=OdometryNoise())
 
 
 @dataclass(frozen=True)
-class ControllerSettings:
-    """The inner loop; of the model it needs the robot's measures only."""
+class ControllerSettings(LoopSettings):
+    """The inner loop and where its references come from."""
 
-    fixed: ClassVar[tuple[str, ...]] = ('enable_stamped_cmd_vel',)
+    fixed: ClassVar[tuple[str, ...]] = ('enable_stamped_cmd_vel', 'lockstep')
 
     cmd_vel_timeout: float = parameter(
         0.5,
@@ -76,8 +104,16 @@ class ControllerSettings:
         meaning='a reference older than this falls to zero, in time of the odometry; 0 = never',
     )
     enable_stamped_cmd_vel: bool = parameter(False, meaning='cmd_vel is a TwistStamped')
-    pi: Gains = field(default=Gains())
-    robot: Robot = field(default=Robot())
+    lockstep: bool = parameter(
+        False, meaning='wait with each answer for the cmd_vel that has the stamp of the odometry'
+    )
+
+    def __post_init__(self) -> None:
+        if self.lockstep and not self.enable_stamped_cmd_vel:
+            raise ConfigError(
+                'lockstep: an unstamped cmd_vel does not say which odometry it answers. '
+                'Set enable_stamped_cmd_vel to true, too.'
+            )
 
 
 @dataclass(frozen=True)
@@ -115,6 +151,9 @@ class DriverSettings:
         2.0, unit='rad/s', low=0.0, high=100.0, meaning='largest yaw rate'
     )
     seed: int = parameter(0, low=0, high=2**31 - 1, meaning='seed of the drive')
+    stamped: bool = parameter(
+        False, meaning='publish a TwistStamped with the stamp of the odometry it answers'
+    )
 
 
 # One file may hold the parameters of all nodes, so each node knows the names of the others.

@@ -2,19 +2,16 @@
 
 from functools import partial
 from math import isfinite
-from time import monotonic
 from typing import NamedTuple
 
-from geometry_msgs.msg import WrenchStamped
-from rclpy.clock import Clock, ClockType
+from geometry_msgs.msg import PoseWithCovarianceStamped, WrenchStamped
 from rclpy.node import Node
-from std_srvs.srv import Empty, SetBool
+from std_srvs.srv import Empty, SetBool, Trigger
 
 from diffbot_sim.control.held import NANOSECONDS, Held
 from diffbot_sim.nodes import conversions
 from diffbot_sim.nodes.odometer import Odometer
 from diffbot_sim.nodes.outputs import DEPTH, SIDES, Outputs
-from diffbot_sim.nodes.pace import Pace
 from diffbot_sim.nodes.parameters import (
     Live,
     Values,
@@ -26,10 +23,9 @@ from diffbot_sim.nodes.parameters import (
 )
 from diffbot_sim.nodes.running import parse, parser, run
 from diffbot_sim.nodes.settings import SimulatorSettings
+from diffbot_sim.nodes.timing import QUIET, Lockstep, OnClock
 from diffbot_sim.physics import Model, Plant
-
-SHORTEST_TIMER = 1e-3  # [s]; the executor cannot wake more often to any use
-QUIET = 5.0  # [s] between repeated warnings
+from diffbot_sim.physics.state import State
 
 
 class Setup(NamedTuple):
@@ -40,7 +36,7 @@ class Setup(NamedTuple):
 
 
 class Simulator(Node):
-    """Ticks on a steady clock: takes the commands, publishes state and forces, moves on.
+    """At each tick takes the commands, publishes state and forces, and moves on.
 
     All messages of a tick carry its stamp, and the forces published are those held until
     the next tick, so a recording of forces and odometry replays exactly.
@@ -52,56 +48,70 @@ class Simulator(Node):
         self._listed = listed_effects(self)
         live = Live(self, known, self._make, self._apply, SimulatorSettings.fixed)
         self._settings, model = live.value
-        self._plant = Plant(model, self._settings.physics_step)  # compiles before anyone waits
-        self._start = 0 if self._settings.publish_clock else self.get_clock().now().nanoseconds
+        # Compiles before anyone waits.
+        self._plant = Plant(model, self._settings.physics_step, self._home)
+        self._start = self._first_stamp()
         self._ticks = 0
         self._paused = False
         self._commands = dict.fromkeys(SIDES, Held())
         self._odometer = self._new_odometer()
         self._connect()
-        self._start_ticking()
+        self._time = self._timing()
+        self._go()
         effects = ', '.join(effect.name for effect in model.effects) or 'no effects'
         self.get_logger().info(f'ready: {self._settings.publish_rate:g} Hz, {effects}')
 
     @property
     def stamp(self) -> int:
-        """Simulation time of the next tick [ns]; ticks are exactly 1/rate apart."""
-        return self._start + round(self._ticks * NANOSECONDS / self._settings.publish_rate)
+        """Simulation time of the present tick [ns]; ticks are exactly 1/rate apart."""
+        return self._stamp_of(self._ticks)
+
+    @property
+    def _home(self) -> State:
+        return State(*self._settings.initial_pose.xy_yaw)
+
+    def _first_stamp(self) -> int:
+        if self._settings.lockstep:  # a stamp of 0 means none, so the first is that of a tick
+            return round(NANOSECONDS / self._settings.publish_rate)
+        return 0 if self._settings.publish_clock else self.get_clock().now().nanoseconds
+
+    def _stamp_of(self, tick: int) -> int:
+        return self._start + round(tick * NANOSECONDS / self._settings.publish_rate)
 
     def _connect(self) -> None:
-        self._outputs = Outputs(self, self._settings.publish_clock, self._settings.enable_odom_tf)
+        self._outputs = Outputs(self, self._settings)
         for side in SIDES:
             topic, act = f'{side}_wheel/force_cmd', partial(self._on_command, side)
             self.create_subscription(WrenchStamped, topic, act, DEPTH)
+        self.create_subscription(
+            PoseWithCovarianceStamped, 'initialpose', self._on_initial_pose, DEPTH
+        )
         self.create_service(Empty, '~/reset', self._on_reset)
         self.create_service(SetBool, '~/pause', self._on_pause)
-        self._timer = self.create_timer(
-            1.0, self._on_timer, clock=Clock(clock_type=ClockType.STEADY_TIME)
-        )
+        self.create_service(Trigger, '~/step', self._on_step)
 
-    def _start_ticking(self) -> None:
-        period = 1.0 / (self._settings.publish_rate * self._settings.real_time_factor)
-        self._pace = Pace(period, monotonic())
-        self._timer.timer_period_ns = int(max(period, SHORTEST_TIMER) * NANOSECONDS)
-        self._timer.reset()
+    def _timing(self) -> OnClock | Lockstep:
+        if self._settings.lockstep:
+            return Lockstep(self, self._show, self._outputs.repeat, self._advance)
+        return OnClock(self, self._show, self._advance)
 
-    def _on_timer(self) -> None:
+    def _go(self) -> None:
         if self._paused:
+            self._time.stop()
             return
-        due, given_up = self._pace.due(monotonic())
-        for _ in range(due):
-            self._tick()
-        if given_up:
-            self.get_logger().warning(
-                f'too slow: {given_up} ticks late; simulation time falls behind',
-                throttle_duration_sec=QUIET,
-            )
+        factor = self._settings.real_time_factor
+        self._time.start(1.0 / (self._settings.publish_rate * factor) if factor else 0.0)
 
-    def _tick(self) -> None:
+    def _show(self) -> None:
+        """Publish the state of the present tick."""
+        self._outputs.publish_motion(self.stamp, self._plant, self._odometer)
+
+    def _advance(self) -> None:
+        """Take the commands, publish what they meet, and hold them until the next tick."""
         stamp = self.stamp
         force = (self._taken('right', stamp), self._taken('left', stamp))
         self._plant.command(*force)
-        self._outputs.publish(stamp, self._plant, force, self._odometer)
+        self._outputs.publish_forces(stamp, self._plant, force)
         self._ticks += 1
         self._plant.step(*force, (self.stamp - stamp) / NANOSECONDS)
 
@@ -117,25 +127,55 @@ class Simulator(Node):
 
     def _on_command(self, side: str, message: WrenchStamped) -> None:
         force = conversions.force_of(message)
-        if isfinite(force):
-            self._commands[side] = Held(force, self.stamp)
-        else:
+        if not isfinite(force):
             self.get_logger().warning(
                 f'{side}_wheel/force_cmd: {force} is no force; refused',
                 throttle_duration_sec=QUIET,
             )
+        elif not self._is_late(message):
+            self._commands[side] = Held(force, self.stamp)
+            self._time.heard(side)
+
+    def _is_late(self, message: WrenchStamped) -> bool:
+        """Say whether a command answers an earlier tick, which had been answered already.
+
+        Asked in lockstep only, where a tick may be told, and so answered, twice.
+        """
+        stamp = conversions.nanoseconds(message.header.stamp)
+        tick = round((stamp - self._start) * self._settings.publish_rate / NANOSECONDS)
+        known = 0 <= tick < self._ticks and stamp == self._stamp_of(tick)
+        return self._settings.lockstep and known
+
+    def _on_initial_pose(self, message: PoseWithCovarianceStamped) -> None:
+        """Put the robot somewhere else, at rest."""
+        pose, frame = conversions.pose_of(message), message.header.frame_id
+        if frame in ('', self._outputs.world) and all(map(isfinite, pose)):
+            self._plant.place(State(*pose))
+        else:
+            self.get_logger().warning(
+                f"initialpose: {pose} in '{frame}' is refused; give a finite pose in "
+                f"'{self._outputs.world}'"
+            )
 
     def _on_reset(self, _: Empty.Request, answer: Empty.Response) -> Empty.Response:
-        """Put the robot at rest at the origin; stamps go on, for nobody likes time to jump."""
-        self._plant.reset()
+        """Put the robot at rest where it started; stamps go on: nobody likes time to jump."""
+        self._plant.reset(self._home)
         self._commands = dict.fromkeys(SIDES, Held())
         self._odometer = self._new_odometer()
         return answer
 
     def _on_pause(self, ask: SetBool.Request, answer: SetBool.Response) -> SetBool.Response:
         self._paused = ask.data
-        self._start_ticking()
+        self._go()
         answer.success, answer.message = True, 'paused' if ask.data else 'running'
+        return answer
+
+    def _on_step(self, _: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
+        """Make one tick of a paused robot."""
+        if self._paused:
+            self._time.step()
+        answer.success = self._paused
+        answer.message = f'at {self.stamp} ns' if self._paused else 'not paused: ~/pause first'
         return answer
 
     def _new_odometer(self) -> Odometer:
@@ -151,7 +191,7 @@ class Simulator(Node):
         if changed:
             self._plant.model = setup.model  # compiles a set of effects that is new
         if changed or setup.settings.real_time_factor != before.real_time_factor:
-            self._start_ticking()
+            self._go()
         if setup.settings.odometry_noise != before.odometry_noise:
             self._odometer = self._new_odometer()
 

@@ -41,8 +41,12 @@ class Plant:
     def reset(self, start: State | None = None) -> None:
         """Put the robot at a start (rest at the origin) and time 0."""
         self.time = 0.0
+        self.place(start or State())
+
+    def place(self, start: State) -> None:
+        """Put the robot somewhere else, free of forces; time goes on."""
         self._force = (0.0, 0.0)
-        self._z = initial_vector(self._model, start or State())
+        self._z = initial_vector(self._model, start)
         self._install(self._model)
 
     @property
