@@ -30,7 +30,8 @@ setup(
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
         (f'share/{NAME}', ['package.xml']),
         (f'share/{NAME}/launch', glob('launch/*.py')),
-        (f'share/{NAME}/config', glob('config/*.yaml')),
+        (f'share/{NAME}/config', glob('config/*')),
+        (f'share/{NAME}/urdf', glob('urdf/*')),
     ],
     # rclpy and the messages come with ROS, or from requirements.lock where there is none.
     install_requires=[
