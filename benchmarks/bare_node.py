@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 
 import rclpy
 from geometry_msgs.msg import WrenchStamped
@@ -52,7 +53,5 @@ class Bare(Node):
 
 if __name__ == '__main__':
     rclpy.init()
-    try:
+    with suppress(ExternalShutdownException):
         rclpy.spin(Bare(float(sys.argv[1])))
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass

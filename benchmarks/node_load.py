@@ -73,10 +73,12 @@ class Listener:
             for side in ('right', 'left')
         ]
         self.published: list[int] = []
-        odom = self.node.create_subscription(Odometry, 'odom', self._on_odom, QUEUE, raw=True)
-        self._odom = odom
+        self._odom = self.node.create_subscription(
+            Odometry, 'odom', self._on_odom, QUEUE, raw=True
+        )
 
     def close(self) -> None:
+        """End both nodes."""
         self.node.destroy_node()
         self._silent.destroy_node()
 
