@@ -6,7 +6,7 @@ from setuptools import find_packages, setup
 
 NAME = 'diffbot_sim'
 COMMANDS = ['simulator', 'pi_controller', 'driver', 'recorder', 'replay']
-COMMANDS += ['simulate', 'identify', 'paper', 'demo']
+COMMANDS += ['simulate', 'identify', 'recover', 'paper', 'demo']
 
 setup(
     name=NAME,
@@ -38,6 +38,7 @@ setup(
         'jinja2',
         'joblib',
         'matplotlib',
+        'mcap',
         'numba',
         'numpy',
         'plotly',

@@ -77,9 +77,13 @@ class Robot:
 
     def listen(self, kind: Any, topic: str) -> None:
         """Collect a topic's messages from now on; return when the first one has come."""
+        self.collect(kind, topic)
+        self.until(lambda: self.heard[topic])
+
+    def collect(self, kind: Any, topic: str) -> None:
+        """Collect a topic's messages from now on."""
         self.heard[topic] = []
         self.node.create_subscription(kind, topic, self.heard[topic].append, 100)
-        self.until(lambda: self.heard[topic])
 
     def until(self, reached: Callable[[], Any], patience: float = PATIENCE) -> None:
         """Spin until something is so; fail when it takes too long."""
@@ -94,10 +98,11 @@ class Robot:
 
     def catch_up(self) -> 'Robot':
         """Drop what came while nobody listened."""
-        seen = -1
-        while (count := sum(map(len, self.heard.values()))) != seen:
-            seen = count
+        idle = 0
+        while idle < 2:  # rclpy ends every round of messages with a spin that brings none
+            seen = sum(map(len, self.heard.values()))
             rclpy.spin_once(self.node, timeout_sec=0.0)
+            idle = idle + 1 if sum(map(len, self.heard.values())) == seen else 0
         return self
 
     def hear(self, count: int) -> list[Odometry]:
@@ -110,6 +115,7 @@ class Robot:
     def push(self, right: float, left: float, count: int) -> list[Odometry]:
         """Command forces at each odometry message; return these messages."""
         self.until(self.listeners)
+        self.catch_up()
         seen = []
         for _ in range(count):
             for side, force in (('right', right), ('left', left)):

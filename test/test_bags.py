@@ -99,6 +99,20 @@ def test_a_few_messages_with_nan_are_left_out_and_told(tmp_path):
     assert found.notes == (f'drive: left out 1 messages of {RIGHT} that are not finite',)
 
 
+def test_holes_in_the_odometry_are_told(tmp_path):
+    late = [m._replace(stamp=m.stamp + 4 * 10**9) for m in messages(drive())[150:]]
+    late = [stamped(message, message.stamp) for message in late]
+    write_bag(tmp_path / 'drive', [*messages(drive())[:150], *late])
+    (note,) = read_run(tmp_path / 'drive').notes
+    assert 'drive: the odometry has holes: 4.0 s from 0.5 s on; ' in note
+
+
+def test_odometry_that_is_always_slow_has_no_holes(tmp_path):
+    slow = [stamped(m, START + 200 * (m.stamp - START)) for m in messages(drive())]
+    write_bag(tmp_path / 'drive', [m._replace(stamp=START + 10**9) for m in slow])
+    assert read_run(tmp_path / 'drive').notes == ()
+
+
 def test_a_pose_that_nobody_filled_is_no_pose(tmp_path):
     for name, pose in (('without', None), ('identity', np.zeros((100, 3)))):
         odom = replace(drive().odometry, pose=pose)

@@ -1,7 +1,8 @@
 """Recorder and replay as processes: what was driven comes back."""
 
 from pathlib import Path
-from signal import SIGINT, SIGTERM
+from signal import SIGINT, SIGKILL, SIGTERM
+from time import time_ns
 
 import numpy as np
 import pytest
@@ -10,7 +11,9 @@ from rosbags.rosbag2 import Reader
 from std_srvs.srv import Empty
 
 from diffbot_sim.bags import read_run
-from diffbot_sim.bags.raw import Raw, RawWriter
+from diffbot_sim.bags.raw import Raw
+from diffbot_sim.bags.recording import RawWriter
+from diffbot_sim.bags.recover import recover
 from diffbot_sim.errors import BagError
 from diffbot_sim.nodes.conversions import pose_of, twist_of
 from diffbot_sim.physics import Model, simulate
@@ -91,7 +94,7 @@ def test_any_topic_replays_faster_into_another_namespace(bag, robot, tmp_path):
     with Robot('/other') as other:
         with running(tmp_path / 'log', 'replay', str(bag), *words) as replay:
             other.until(lambda: replay.process.poll() is not None)
-        assert len(other.heard['odom']) == recorded(bag)['/odom']
+        assert len(other.catch_up().heard['odom']) == recorded(bag)['/odom']
 
 
 def test_a_running_replay_ends_quietly_on_ctrl_c(bag, robot, simulator, tmp_path):
@@ -108,6 +111,30 @@ def test_a_recorder_refuses_a_folder_that_exists(tmp_path):
 def test_replay_says_what_is_wrong_with_a_bag(bag, tmp_path):
     assert 'there is no such bag' in refusal('replay', str(tmp_path / 'none'))
     assert 'The bag holds /joint_states' in refusal('replay', str(bag), '--topics', 'image')
+
+
+def test_a_recording_in_parts_is_one_bag(robot, simulator, tmp_path):
+    words = ('--output', str(tmp_path / 'bag'), '-s', 'sqlite3', '-d', '1')
+    with running(tmp_path / 'log', 'recorder', *words) as recorder:
+        robot.until((tmp_path / 'bag' / 'bag_1.db3').exists)
+        assert recorder.stop(SIGTERM) == 0
+    assert len(list((tmp_path / 'bag').glob('bag_?.db3'))) == 3
+    odom = read_run(tmp_path / 'bag').run.odometry
+    assert odom.time[-1] > 2.0
+    assert np.diff(odom.time).max() < 0.1
+
+
+@pytest.mark.parametrize('storage', ['mcap', 'sqlite3'])
+def test_a_killed_recorder_loses_a_second_at_most(robot, simulator, tmp_path, storage):
+    words = ('--output', str(tmp_path / 'bag'), '--storage', storage)
+    with running(tmp_path / 'log', 'recorder', *words) as recorder:
+        robot.until(lambda: 'first message' in recorder.said())
+        robot.hear(350)
+        recorder.stop(SIGKILL)
+        killed = time_ns()
+    saved = recover(tmp_path / 'bag', tmp_path / 'whole').saved['/odom']
+    assert killed - saved.last < 2e9
+    assert saved.count > 150
 
 
 def test_an_unfinished_bag_is_told(tmp_path):

@@ -1,6 +1,7 @@
 """Writes the files of a bag into a folder without harming what else lies there."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from operator import attrgetter
 from os import replace
 from pathlib import Path
@@ -52,10 +53,24 @@ def check_replaceable(folder: Path) -> None:
     metadata = folder / METADATA
     if metadata.exists() and ': '.join(MARK) not in metadata.read_text('utf-8', 'replace'):
         raise BagError(f'{folder}: holds a recorded bag, which is kept. Choose another place.')
+    if not metadata.exists() and (folder / f'{folder.resolve().name}.mcap').exists():
+        raise BagError(
+            f'{folder}: holds a recording that was cut off, which is kept. Choose another place.'
+        )
 
 
 def write_bag(folder: Path, messages: Sequence[Message]) -> None:
     """Write a bag; one that was computed before is replaced, other files stay.
+
+    Raises BagError when the folder holds a recorded bag or cannot be written.
+    """
+    with whole_or_not_at_all(folder) as place:
+        _write(place, sorted(messages, key=attrgetter('stamp')))
+
+
+@contextmanager
+def whole_or_not_at_all(folder: Path) -> Iterator[Path]:
+    """Offer a place for a new mcap bag, which moves into the folder once it is finished.
 
     Raises BagError when the folder holds a recorded bag or cannot be written.
     """
@@ -64,7 +79,7 @@ def write_bag(folder: Path, messages: Sequence[Message]) -> None:
     try:
         target.mkdir(parents=True, exist_ok=True)
         with TemporaryDirectory(dir=target, prefix='.unfinished-') as workplace:
-            _write(Path(workplace) / target.name, sorted(messages, key=attrgetter('stamp')))
+            yield Path(workplace) / target.name
             # Last comes what makes the folder a bag.
             for name in (f'{target.name}.mcap', METADATA):
                 replace(Path(workplace) / target.name / name, target / name)

@@ -14,6 +14,9 @@ from diffbot_sim.errors import BagError
 from diffbot_sim.records import Array, Commands, Odometry, Run
 
 FEWEST = 50
+# A hole in the odometry is longer than this [s], and than this many usual intervals.
+LONGEST_SILENCE, USUAL_SILENCES = 1.0, 10.0
+MOST = 5  # holes that are told one by one
 
 
 @dataclass(frozen=True)
@@ -94,7 +97,22 @@ def _notes(
     ]
     if not by_header:
         notes.append(f'{name}: not all messages are stamped; used the times of receipt')
-    return notes
+    return [*notes, *(f'{name}: {hole}' for hole in _holes(usable))]
+
+
+def _holes(usable: Mapping[str, Ordered]) -> list[str]:
+    """Tell where the odometry is silent far longer than it usually is."""
+    odom = usable['odom'].stamp
+    start = min(item.stamp[0] for item in usable.values())
+    steps = np.diff(odom) / NANOSECONDS
+    holes = np.flatnonzero(steps > max(LONGEST_SILENCE, USUAL_SILENCES * np.median(steps)))
+    if not holes.size:
+        return []
+    times = ', '.join(
+        f'{steps[i]:.1f} s from {(odom[i] - start) / NANOSECONDS:.1f} s on' for i in holes[:MOST]
+    )
+    more = f' and {len(holes) - MOST} more' if len(holes) > MOST else ''
+    return [f'the odometry has holes: {times}{more}; what happened there is unknown']
 
 
 def _seconds(stamp: Stamps, start: int) -> Array:

@@ -15,13 +15,14 @@ from diffbot_sim.errors import BagError
 
 STORAGE = ('.mcap', '.db3')
 FORM = 'A bag is a folder that holds metadata.yaml, or one .mcap or .db3 file.'
+MEND = "Save what can be read with 'diffbot_sim recover BAG --out DIR'."
 ROWS = {'left_force': wrench_row, 'right_force': wrench_row, 'odom': odometry_row}
 
 
 def read_series(path: Path, topics: Topics) -> dict[str, Series]:
     """Return what the topics of left_force, right_force and odom hold; raises BagError."""
-    _check_place(path)
-    with _opened(path) as reader:
+    check_place(path)
+    with opened(path) as reader:
         there = {item.topic: item.msgtype for item in reader.connections if item.msgcount}
         chosen = find_topics(there, topics)
         return {role: _read(reader, topic, role) for role, topic in chosen.items()}
@@ -40,7 +41,8 @@ def _read(reader: Any, topic: str, role: str) -> Series:
 
 
 @contextmanager
-def _opened(path: Path) -> Iterator[Any]:
+def opened(path: Path) -> Iterator[Any]:
+    """Open a bag, or one of its files, for reading; raises BagError where it is damaged."""
     try:
         with Reader(path) as reader:
             yield reader
@@ -48,21 +50,16 @@ def _opened(path: Path) -> Iterator[Any]:
         raise
     except Exception as error:  # damaged bytes surface as any of struct's, sqlite's, zstd's errors
         detail = ' '.join(str(error).split()).rstrip('.') or type(error).__name__
-        raise BagError(
-            f'damaged, or cut off while it was recorded ({detail}). Record it again.'
-        ) from error
+        raise BagError(f'damaged, or cut off while it was recorded ({detail}). {MEND}') from error
 
 
-def _check_place(path: Path) -> None:
+def check_place(path: Path) -> None:
+    """Raise BagError when there is no bag at a path."""
     if not path.exists():
         raise BagError('there is no such bag.')
     if path.is_file() and path.suffix not in STORAGE:
         raise BagError(f'not a bag. {FORM}')
     if path.is_dir() and not (path / 'metadata.yaml').exists():
-        files = [file.name for file in path.iterdir() if file.suffix in STORAGE]
-        if files:
-            raise BagError(
-                'no metadata.yaml: the recording was cut off. Mend it with '
-                f"'ros2 bag reindex', or try the file itself: {files[0]}."
-            )
+        if any(file.suffix in STORAGE for file in path.rglob('*')):
+            raise BagError(f'no metadata.yaml: the recording was cut off. {MEND}')
         raise BagError(f'not a bag. {FORM}')

@@ -5,7 +5,6 @@ import shutil
 from argparse import ArgumentParser, Namespace
 from collections.abc import Mapping
 from dataclasses import replace
-from os import getpid
 from pathlib import Path
 from secrets import randbelow
 
@@ -13,7 +12,7 @@ import numpy as np
 
 from diffbot_sim.__main__ import main
 from diffbot_sim.bags import read_run
-from diffbot_sim.commands._processes import Process, stopped_at_end
+from diffbot_sim.commands._processes import Process, free_domain, stopped_at_end
 from diffbot_sim.config import save_model
 from diffbot_sim.errors import DiffbotError
 from diffbot_sim.physics import simulate
@@ -80,7 +79,7 @@ def drive(params: Path, bag: Path, duration: float, seed: int) -> None:
     """Run simulator, inner loop, recorder and driver as processes until the drive is over."""
     logs = bag.parent / 'logs' / bag.name
     logs.mkdir(parents=True, exist_ok=True)
-    domain = 1 + getpid() % 100
+    domain = free_domain()
     options = {
         'publish_rate': RATE,
         'real_time_factor': SPEED_UP,

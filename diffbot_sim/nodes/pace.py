@@ -15,6 +15,10 @@ class Pace:
         self._next = now
         self._bearable = max(AT_ONCE, int(LONGEST_DEBT / period))
 
+    def left(self, now: float) -> float:
+        """Return how long [s] it takes from now [s] to the next tick."""
+        return self._next - now
+
     def due(self, now: float) -> tuple[int, int]:
         """Return how many ticks to make now [s], and how many are given up."""
         behind = max(int((now - self._next) / self.period) + 1, 0) if now >= self._next else 0

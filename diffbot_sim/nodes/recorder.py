@@ -2,18 +2,21 @@
 
 from datetime import datetime
 from functools import partial
+from math import inf
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from rclpy.clock import Clock, ClockType
 from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from diffbot_sim.bags.raw import Offer, Raw, RawWriter, is_standard
+from diffbot_sim.bags.parts import Limits, recording
+from diffbot_sim.bags.raw import Offer, Raw, is_standard
 from diffbot_sim.nodes import conversions
 from diffbot_sim.nodes.parameters import Live, Values, build, table
 from diffbot_sim.nodes.running import overrides, parse, parser, run
-from diffbot_sim.nodes.settings import RecorderSettings
+from diffbot_sim.nodes.settings import STORAGES, RecorderSettings
 
 WRENCH = 'geometry_msgs/msg/WrenchStamped'
 # Types of our own topics, to listen before anyone speaks; those of others are asked for.
@@ -24,6 +27,7 @@ KNOWN = {
     'joint_states': 'sensor_msgs/msg/JointState',
 }
 LOOK_AGAIN = 0.2  # [s] between looks at who publishes
+FLUSH = 1.0  # [s] of messages that may be lost when the process is killed
 DEPTH = 1000  # messages that may wait while the disk is busy
 
 
@@ -41,24 +45,30 @@ class Recorder(Node):
         super().__init__('recorder', parameter_overrides=chosen)
         live = Live(self, table(RecorderSettings), self._make, self._apply, RecorderSettings.fixed)
         folder = Path(live.value.output or f'{datetime.now():rosbag2_%Y_%m_%d-%H_%M_%S}')
-        self._writer = RawWriter(folder)
+        self._writer = recording(folder, live.value.storage, _limits(live.value))
         self._sources: dict[str, Source] = {}
         self._listeners: dict[str, Any] = {}
         self._heard: set[str] = set()
         self._wanted = live.value.topics
         self._look()
         self.create_timer(LOOK_AGAIN, self._look)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(FLUSH, self._writer.flush, clock=steady)
         self.get_logger().info(f'recording to {folder}')
 
     def destroy_node(self) -> None:
         """Finish the bag, then end the node."""
+        if hasattr(self, '_writer'):  # some rclpy ends a node that could not open its bag
+            self._finish()
+        super().destroy_node()
+
+    def _finish(self) -> None:
         self._writer.close()
         if silent := [topic for topic in self._wanted if topic not in self._heard]:
             # Not the node's own logger: it would complain that /rosout is gone already.
             get_logger(f'{self.get_logger().name}.end').warning(
                 f'nothing came on {", ".join(silent)}'
             )
-        super().destroy_node()
 
     def _look(self) -> None:
         """Listen to what is published; anew where a publisher offers something else."""
@@ -119,10 +129,25 @@ class Recorder(Node):
         """Nothing can change while it records."""
 
 
+def _limits(settings: RecorderSettings) -> Limits:
+    return Limits(settings.max_bag_size or inf, settings.max_bag_duration or inf)
+
+
 def main(argv: list[str]) -> int:
     """Record until told to stop; raises DiffbotError where the bag cannot be written."""
     options = parser('recorder', __doc__ or '', table(RecorderSettings))
     options.add_argument('-o', '--output', metavar='DIR', help='folder of the new bag')
     options.add_argument('--topics', nargs='+', metavar='TOPIC', help='topics to record')
+    options.add_argument('-s', '--storage', choices=STORAGES, help='kind of file; default mcap')
+    options.add_argument(
+        '-b',
+        '--max-bag-size',
+        type=int,
+        metavar='BYTES',
+        help='size that makes it start another file',
+    )
+    options.add_argument(
+        '-d', '--max-bag-duration', type=float, metavar='SECONDS', help='time, likewise'
+    )
     chosen = overrides(RecorderSettings, parse(options, argv))
     return run(lambda: Recorder(chosen), argv)

@@ -7,6 +7,8 @@ from diffbot_sim.control.loop import LoopSettings
 from diffbot_sim.errors import ConfigError
 from diffbot_sim.parameters import parameter
 
+STORAGES = ('mcap', 'sqlite3')
+
 
 @dataclass(frozen=True)
 class OdometryNoise:
@@ -120,7 +122,13 @@ class ControllerSettings(LoopSettings):
 class RecorderSettings:
     """What is recorded, and where to."""
 
-    fixed: ClassVar[tuple[str, ...]] = ('output', 'topics')
+    fixed: ClassVar[tuple[str, ...]] = (
+        'output',
+        'topics',
+        'storage',
+        'max_bag_size',
+        'max_bag_duration',
+    )
 
     output: str = parameter('', meaning='folder of the new bag; empty names it by date and time')
     topics: tuple[str, ...] = parameter(
@@ -136,6 +144,17 @@ class RecorderSettings:
             'cmd_vel',
         ),
         meaning='topics to record',
+    )
+    storage: str = parameter(STORAGES[0], choices=STORAGES, meaning='kind of file')
+    max_bag_size: int = parameter(
+        0,
+        unit='bytes',
+        low=0,
+        high=2**63 - 1,
+        meaning='a file so big is followed by another; 0 = never',
+    )
+    max_bag_duration: float = parameter(
+        0.0, unit='s', low=0.0, high=1e9, meaning='likewise, by time; 0 = never'
     )
 
 

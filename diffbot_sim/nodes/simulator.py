@@ -151,6 +151,7 @@ class Simulator(Node):
         pose, frame = conversions.pose_of(message), message.header.frame_id
         if frame in ('', self._outputs.world) and all(map(isfinite, pose)):
             self._plant.place(State(*pose))
+            self._commands = dict.fromkeys(SIDES, Held())
         else:
             self.get_logger().warning(
                 f"initialpose: {pose} in '{frame}' is refused; give a finite pose in "
