@@ -26,7 +26,7 @@ def generate_launch_description() -> LaunchDescription:
             DeclareLaunchArgument(
                 'terminal',
                 default_value='xterm -e',
-                description='what opens a terminal with a command in it; empty: none',
+                description='opens a terminal with a command in it; none: say the command instead',
             ),
             IncludeLaunchDescription(BRINGUP),
             OpaqueFunction(function=_teleop),
@@ -51,7 +51,7 @@ def _teleop(context: LaunchContext) -> list[Action]:
 
 
 def _opens(terminal: str) -> bool:
-    return bool(terminal and which(split(terminal)[0]) and environ.get('DISPLAY'))
+    return bool(which(split(terminal)[0]) and environ.get('DISPLAY'))
 
 
 def _command(namespace: str, stamped: bool) -> str:
