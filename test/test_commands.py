@@ -1,5 +1,6 @@
 """The command line: what it offers, what it answers, how it ends."""
 
+import subprocess
 import sys
 from pathlib import Path
 
@@ -88,8 +89,9 @@ def test_a_reader_who_leaves_is_no_problem(monkeypatch, capsys, tmp_path):
     assert (tmp_path / 'pipe').read_text() == capsys.readouterr().err == ''
 
 
-def test_a_node_without_ros_says_what_to_install(monkeypatch, capsys):
-    monkeypatch.setitem(sys.modules, 'rclpy', None)
-    monkeypatch.delitem(sys.modules, 'diffbot_sim.nodes.simulator', raising=False)
-    assert main(['simulator']) == 1
-    assert "simulator needs 'rclpy', which is not installed. Source" in capsys.readouterr().err
+def test_a_node_without_ros_says_what_to_install():
+    words = "import sys; sys.modules['rclpy'] = None; from diffbot_sim.__main__ import main; "
+    words += "sys.exit(main(['simulator']))"
+    alone = subprocess.run([sys.executable, '-c', words], capture_output=True, text=True)
+    assert alone.returncode == 1
+    assert "simulator needs 'rclpy', which is not installed. Source" in alone.stderr
