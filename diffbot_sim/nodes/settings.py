@@ -142,6 +142,10 @@ class RecorderSettings:
             'odom',
             'joint_states',
             'cmd_vel',
+            'left_wheel/velocity_reference',
+            'right_wheel/velocity_reference',
+            'left_wheel/velocity',
+            'right_wheel/velocity',
         ),
         meaning='topics to record',
     )
