@@ -92,6 +92,7 @@ def _node(
         # Frames with a prefix are told apart, so that robots may share one tf.
         remappings=[('tf', '/tf')] if given['frame_prefix'] else [],
         on_exit=_end,
+        sigkill_timeout='20',  # a recorder on a busy machine must get its bag closed
         output='screen',
     )
 
