@@ -27,11 +27,14 @@ EXAMPLES = (
     'slope',
     'quadratic_drag',
     'payload_change',
+    'transmission_loss',
+    'power_limit',
 )
 RIPPLE = ('order', 'right_cos', 'right_sin', 'left_cos', 'left_sin')
 # Where three scales from neutral are no size that anyone would meet.
 AMPLE = {
     'actuator_saturation': {'limit': 7.0},
+    'power_limit': {'power': 6.0},
     'payload_change': {'mass': 2.0, 'inertia': 0.08, 'moment': 23.4},
     'wheel_ripple': dict(zip(RIPPLE, (5.3, 0.5, 0.0, 0.2, 0.4), strict=True)),
 }
