@@ -52,13 +52,17 @@ class Recorder(Node):
 
     def destroy_node(self) -> None:
         """Finish the bag, then end the node."""
+        if hasattr(self, '_writer'):  # some rclpy ends a node that could not open its bag
+            self._finish()
+        super().destroy_node()
+
+    def _finish(self) -> None:
         self._writer.close()
         if silent := [topic for topic in self._wanted if topic not in self._heard]:
             # Not the node's own logger: it would complain that /rosout is gone already.
             get_logger(f'{self.get_logger().name}.end').warning(
                 f'nothing came on {", ".join(silent)}'
             )
-        super().destroy_node()
 
     def _look(self) -> None:
         """Listen to what is published; anew where a publisher offers something else."""
