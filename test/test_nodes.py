@@ -152,7 +152,8 @@ def test_reset_puts_the_robot_at_rest_at_the_origin(bare):
     bare.push(10.0, 5.0, 20)
     before = stamps(bare.hear(1))[0]
     bare.call(Empty, 'simulator/reset', Empty.Request())
-    message = bare.catch_up().hear(1)[-1]
+    bare.until(lambda: pose_of(bare.hear(1)[0]) == (0.0, 0.0, 0.0), patience=10.0)
+    message = bare.hear(1)[0]
     assert (twist_of(message), pose_of(message)) == ((0.0, 0.0), (0.0, 0.0, 0.0))
     assert stamps([message])[0] > before
 

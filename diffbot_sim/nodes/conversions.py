@@ -1,4 +1,7 @@
-"""Messages to plain values and back; stamps are nanoseconds, wheels are right then left."""
+"""Messages to plain values and back; stamps are nanoseconds, wheels are right then left.
+
+`into` is a message to fill, which is far quicker than making one.
+"""
 
 from importlib import import_module
 from math import atan2, cos, sin
@@ -41,9 +44,11 @@ def clock(stamp: int) -> Clock:
     return Clock(clock=time(stamp))
 
 
-def wrench(stamp: int, frame: str, force: float) -> WrenchStamped:
+def wrench(
+    stamp: int, frame: str, force: float, into: WrenchStamped | None = None
+) -> WrenchStamped:
     """Return a force [N] along x of a frame."""
-    message = WrenchStamped()
+    message = into or WrenchStamped()
     message.header.stamp = time(stamp)
     message.header.frame_id = frame
     message.wrench.force.x = force
@@ -90,9 +95,10 @@ def odometry(
     twist: Pair,
     pose_covariance: Array,
     twist_covariance: Array,
+    into: Odometry | None = None,
 ) -> Odometry:
     """Return x, y [m], heading [rad] and v [m/s], ω [rad/s] with flat 6x6 covariances."""
-    message = Odometry()
+    message = into or Odometry()
     message.header.stamp = time(stamp)
     message.header.frame_id = WORLD
     message.child_frame_id = BODY
@@ -125,10 +131,13 @@ def transform(message: Odometry) -> TransformStamped:
     return result
 
 
-def joint_state(stamp: int, angle: Pair, rate: Pair, torque: Pair) -> JointState:
+def joint_state(
+    stamp: int, angle: Pair, rate: Pair, torque: Pair, into: JointState | None = None
+) -> JointState:
     """Return angles [rad], rates [rad/s] and torques [N·m] of the wheels."""
-    message = JointState(name=JOINTS, position=angle, velocity=rate, effort=torque)
+    message = into or JointState(name=JOINTS)
     message.header.stamp = time(stamp)
+    message.position, message.velocity, message.effort = angle, rate, torque
     return message
 
 

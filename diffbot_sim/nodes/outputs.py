@@ -33,7 +33,7 @@ class Outputs:
             node.create_publisher(Clock, '/clock', DEPTH) if settings.publish_clock else None
         )
         self._tf = _tf_publisher(node) if settings.enable_odom_tf else None
-        self._last = Odometry()
+        self._last, self._joint_state = Odometry(), JointState(name=conversions.JOINTS)
 
     @property
     def world(self) -> str:
@@ -44,12 +44,13 @@ class Outputs:
         """Tell the true pose with the measured twist at a stamp [ns]."""
         if self._clock:
             self._clock.publish(conversions.clock(stamp))
-        self._last = conversions.odometry(
+        conversions.odometry(
             stamp,
             plant.pose,
             odometer.measure(plant.twist),
             odometer.pose_covariance,
             odometer.twist_covariance,
+            into=self._last,
         )
         self._last.header.frame_id = self.world
         self._last.child_frame_id = self._prefix + conversions.BODY
@@ -64,10 +65,10 @@ class Outputs:
 
     def publish_forces(self, stamp: int, plant: Plant, force: Pair) -> None:
         """Tell the forces [N] held from a stamp [ns] on, what they meet, and the wheels."""
-        for values, publishers in ((force, self._force), (plant.friction, self._friction)):
-            for side, value, publisher in zip(SIDES, values, publishers, strict=True):
+        for values, outlets in ((force, self._force), (plant.friction, self._friction)):
+            for side, value, (publisher, message) in zip(SIDES, values, outlets, strict=True):
                 frame = f'{self._prefix}{side}_wheel_contact'
-                publisher.publish(conversions.wrench(stamp, frame, value))
+                publisher.publish(conversions.wrench(stamp, frame, value, into=message))
         self._publish_joints(stamp, plant, force)
 
     def _publish_joints(self, stamp: int, plant: Plant, force: Pair) -> None:
@@ -75,11 +76,16 @@ class Outputs:
         right, left = plant.wheel_speed
         rate = (right / radius, left / radius)
         torque = (force[0] * radius, force[1] * radius)
-        self._joints.publish(conversions.joint_state(stamp, plant.wheel_angle, rate, torque))
+        conversions.joint_state(stamp, plant.wheel_angle, rate, torque, into=self._joint_state)
+        self._joints.publish(self._joint_state)
 
 
-def _per_wheel(node: Node, name: str) -> tuple[Any, ...]:
-    return tuple(node.create_publisher(WrenchStamped, f'{s}_wheel/{name}', KEPT) for s in SIDES)
+def _per_wheel(node: Node, name: str) -> tuple[tuple[Any, WrenchStamped], ...]:
+    """Return a publisher and its message for each wheel."""
+    return tuple(
+        (node.create_publisher(WrenchStamped, f'{side}_wheel/{name}', KEPT), WrenchStamped())
+        for side in SIDES
+    )
 
 
 def _tf_publisher(node: Node) -> tuple[Any, Any] | None:
