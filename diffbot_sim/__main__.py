@@ -2,6 +2,7 @@
 
 import ast
 import os
+import signal
 import sys
 from argparse import ArgumentParser, RawDescriptionHelpFormatter
 from collections.abc import Iterable, Iterator, Sequence
@@ -42,6 +43,9 @@ def _run(words: list[str]) -> int:
         _refuse(words, 'give a COMMAND')
     name, *rest = words
     if name in NODES:
+        # The first start compiles, which swallows a KeyboardInterrupt: until the node listens to
+        # signals itself, Ctrl-C simply ends it.
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
         return int(_loaded(f'nodes.{name}').main(rest))
     if name not in _commands():
         _refuse([], f"unknown command '{name}'. {suggestion(name, [*NODES, *_commands()])}")

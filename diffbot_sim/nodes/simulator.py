@@ -109,21 +109,23 @@ class Simulator(Node):
     def _advance(self) -> None:
         """Take the commands, publish what they meet, and hold them until the next tick."""
         stamp = self.stamp
-        force = (self._taken('right', stamp), self._taken('left', stamp))
+        self._drop_stale(stamp)
+        force = (self._commands['right'].value, self._commands['left'].value)
         self._plant.command(*force)
         self._outputs.publish_forces(stamp, self._plant, force)
         self._ticks += 1
         self._plant.step(*force, (self.stamp - stamp) / NANOSECONDS)
 
-    def _taken(self, side: str, stamp: int) -> float:
-        command, timeout = self._commands[side], self._settings.force_timeout
-        if command.value and command.is_stale(stamp, timeout):
+    def _drop_stale(self, stamp: int) -> None:
+        """Let forces that are too old fall to zero, and say so once."""
+        timeout, commands = self._settings.force_timeout, self._commands.items()
+        stale = [side for side, held in commands if held.value and held.is_stale(stamp, timeout)]
+        if stale:
+            topics = ' and '.join(f'{side}_wheel/force_cmd' for side in stale)
             self.get_logger().warning(
-                f'no {side}_wheel/force_cmd for {timeout:g} s: its force falls to zero',
-                throttle_duration_sec=QUIET,
+                f'no {topics} for {timeout:g} s: no force', throttle_duration_sec=QUIET
             )
-            self._commands[side] = Held()  # said once, not for ever
-        return command.at(stamp, timeout)
+            self._commands |= dict.fromkeys(stale, Held())
 
     def _on_command(self, side: str, message: WrenchStamped) -> None:
         force = conversions.force_of(message)
