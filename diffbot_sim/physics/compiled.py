@@ -5,7 +5,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from numba import njit
+from numba import njit, types
 
 Function = Callable[..., Any]
 
@@ -30,6 +30,22 @@ def entry(signature: Any, key: str = '') -> Callable[[Function], Function]:
         return result
 
     return decorate
+
+
+class Pointer(types.WrapperAddressProtocol):  # type: ignore[misc]  # numba has no types
+    """A compiled function to hand to an entry: numba looks up a plain one at every call."""
+
+    def __init__(self, function: Any, signature: Any) -> None:
+        self._function, self._signature = function, signature  # kept, so that the code is
+        found = function.get_compile_result(signature)
+        self._address = found.library.get_pointer_to_function(found.fndesc.llvm_cfunc_wrapper_name)
+
+    def __wrapper_address__(self) -> Any:
+        return self._address
+
+    def signature(self) -> Any:
+        """Return what it takes and gives."""
+        return self._signature
 
 
 def digest_of(names: Iterable[str], files: Iterable[Path]) -> str:

@@ -6,8 +6,14 @@ from math import inf
 import numpy as np
 from numba import types
 
-from diffbot_sim.physics.compiled import entry
-from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
+from diffbot_sim.physics.compiled import Pointer, entry
+from diffbot_sim.physics.composition import (
+    ARRAY,
+    FUNCTION_TYPES,
+    LAWS_SIGNATURE,
+    SETTLE_SIGNATURE,
+    compose,
+)
 from diffbot_sim.physics.instant import Inputs
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import delay_of, moments_of
@@ -131,7 +137,8 @@ class Plant:
 
     def _install(self, model: Model) -> None:
         self._model = model
-        self._functions = compose(tuple(type(effect) for effect in model.effects))
+        laws, settle = compose(tuple(type(effect) for effect in model.effects))
+        self._functions = Pointer(laws, LAWS_SIGNATURE), Pointer(settle, SETTLE_SIGNATURE)
         self._params = model.pack()
         self._delay, self._moments = delay_of(model), moments_of(model)
         self._coming: deque[tuple[float, tuple[float, float]]] = deque()
