@@ -27,7 +27,6 @@ EXAMPLES = (
     'slope',
     'quadratic_drag',
     'payload_change',
-    'transmission_loss',
     'power_limit',
 )
 RIPPLE = ('order', 'right_cos', 'right_sin', 'left_cos', 'left_sin')

@@ -59,9 +59,9 @@ def latest(robot):
 
 def test_two_closed_loops_give_the_same_odometry_to_the_bit(tmp_path):
     first, second = (odometry_of_a_drive(tmp_path, name) for name in ('first', 'second'))
-    assert list(first) == list(second)
-    assert list(first)[:500] == list(range(TICK, 501 * TICK, TICK))
-    assert first == second
+    whole = range(TICK, 501 * TICK, TICK)  # what comes after the drive depends on who ends first
+    assert list(first)[:500] == list(second)[:500] == list(whole)
+    assert [first[stamp] for stamp in whole] == [second[stamp] for stamp in whole]
 
 
 def test_time_stands_still_until_both_wheels_have_been_commanded(alone):

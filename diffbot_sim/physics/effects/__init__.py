@@ -30,4 +30,4 @@ def library() -> dict[str, type[Effect]]:
 
 def laws() -> dict[str, type[Effect]]:
     """Return the effects that identification may name, in the same order."""
-    return {name: kind for name, kind in library().items() if kind.is_law}
+    return {name: kind for name, kind in library().items() if kind.is_sought}

@@ -35,7 +35,8 @@ class Effect:
     states: how many numbers of state it keeps (stage ACTUATOR or COMMAND only).
     update: compiled, same arguments; returns the state after `at.elapsed` seconds.
     dissipative: whether it can only take energy away.
-    is_law: whether it has a law that identification may name; False for mere descriptions.
+    is_sought: whether identification looks for it; False for mere descriptions, and for what takes
+    the place of other effects in too many drives. Declared, it acts all the same.
     guesses: values of the parameters from which fits start.
     shape: names of parameters that mean nothing while the others are neutral (a moment, a period).
     excitation: the drive that shows it.
@@ -49,7 +50,7 @@ class Effect:
     states: ClassVar[int] = 0
     update: ClassVar[Callable[..., Any] | None] = None
     dissipative: ClassVar[bool] = False
-    is_law: ClassVar[bool] = True
+    is_sought: ClassVar[bool] = True
     guesses: ClassVar[tuple[tuple[Any, ...], ...]]
     shape: ClassVar[tuple[str, ...]] = ()
     excitation: ClassVar[str]

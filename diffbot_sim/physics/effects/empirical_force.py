@@ -61,7 +61,7 @@ class EmpiricalForce(Effect):
     source = 'learned from the residual of recorded drives'
     stage = Stage.BODY_LOAD
     kernel = tabulated
-    is_law = False
+    is_sought = False
     guesses = (('v', 'v', -1.0, 1.0, *([0.5] * POINTS)),)
     excitation = 'the whole range of the variable'
 

@@ -35,7 +35,7 @@ class EmpiricalWheelForce(Effect):
     source = 'learned from the residual of recorded drives'
     stage = Stage.ACTUATOR
     kernel = tabulated
-    is_law = False
+    is_sought = False
     guesses = (('wheels', 'wheel_speed', -1.0, 1.0, *([0.5] * POINTS)),)
     excitation = 'the whole range of the variable'
 
