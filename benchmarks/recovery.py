@@ -63,7 +63,7 @@ def judged(chosen: Iterable[Case], processes: int) -> Iterable[Row]:
 def _options() -> Namespace:
     parser = ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument('--family', nargs='+', choices=FAMILIES, help='default: all of them')
-    parser.add_argument('--seeds', type=_range, default=range(1), help='FIRST:END or a number')
+    parser.add_argument('--seeds', type=seed_range, default=range(1), help='FIRST:END or a number')
     parser.add_argument('--share', type=float, default=1.0, help='of the cases, at random')
     parser.add_argument('--only', help='cases whose name contains this')
     parser.add_argument('--processes', type=int, default=1)
@@ -73,7 +73,8 @@ def _options() -> Namespace:
     return parser.parse_args()
 
 
-def _range(text: str) -> range:
+def seed_range(text: str) -> range:
+    """Read FIRST:END, or a number of seeds."""
     return range(*(int(part) for part in text.split(':')))
 
 
