@@ -114,13 +114,18 @@ class Recorder(Node):
         act = partial(self._on_message, topic, source)
         return self.create_subscription(kind, topic, act, quality, raw=True)
 
-    def _on_message(self, topic: str, source: Source, data: bytes) -> None:
+    def _on_message(self, topic: str, source: Source, data: bytes, info: Any) -> None:
         if not self._heard:
             self.get_logger().info(f'first message: {topic}')
         self._heard.add(topic)
-        stamp = self.get_clock().now().nanoseconds
         name = self._listeners[topic].topic_name
-        self._writer.write(Raw(stamp, name, source.kind, data), source.offer)
+        self._writer.write(Raw(self._received(info), name, source.kind, data), source.offer)
+
+    def _received(self, info: Any) -> int:
+        """Return when a message came [ns]: as the middleware says, for this node may be busy."""
+        if self.get_parameter('use_sim_time').value:
+            return self.get_clock().now().nanoseconds
+        return int(info['received_timestamp'])
 
     def _make(self, values: Values) -> RecorderSettings:
         return build(RecorderSettings, values)
