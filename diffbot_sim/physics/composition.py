@@ -60,13 +60,15 @@ def compose(kinds: tuple[type[Effect], ...]) -> tuple[Laws, Settle]:
     links, key = _links(kinds), _key(kinds)
     driving = links[Stage.COMMAND] + links[Stage.ACTUATOR]
     chains = {
-        'drive': _chain(driving),
-        'rub': _chain(links[Stage.WHEEL_FRICTION]),
-        'push': _chain(links[Stage.BODY_LOAD]),
-        'weigh': _chain(links[Stage.INERTIA]),
+        'drive': _chain(driving, f'drive_{key}'),
+        'rub': _chain(links[Stage.WHEEL_FRICTION], f'rub_{key}'),
+        'push': _chain(links[Stage.BODY_LOAD], f'push_{key}'),
+        'weigh': _chain(links[Stage.INERTIA], f'weigh_{key}'),
     }
     laws = entry(LAWS_SIGNATURE, key)(_bound(_laws, chains))
-    return laws, entry(SETTLE_SIGNATURE, key)(_bound(_settle, {'live': _settle_chain(driving)}))
+    return laws, entry(SETTLE_SIGNATURE, key)(
+        _bound(_settle, {'live': _settle_chain(driving, f'live_{key}')})
+    )
 
 
 def _key(kinds: tuple[type[Effect], ...]) -> str:
@@ -89,14 +91,15 @@ def _links(kinds: tuple[type[Effect], ...]) -> dict[Stage, tuple[_Link, ...]]:
     return links
 
 
-def _chain(links: tuple[_Link, ...]) -> Any:
+def _chain(links: tuple[_Link, ...], name: str) -> Any:
     """Return a function that hands the value through every kernel in turn."""
     if not links:
         return _unchanged
     kernel, _, first, last, first_state, last_state = links[-1]
-    count, state_count, before = last - first, last_state - first_state, _chain(links[:-1])
+    count, state_count = last - first, last_state - first_state
+    before = _chain(links[:-1], name)
 
-    @compiled
+    @_known_as(f'{name}_{len(links)}')
     def chain(params, states, at, value):  # type: ignore[no-untyped-def]
         own = to_fixed_tuple(params[first:last], count)
         state = to_fixed_tuple(states[first_state:last_state], state_count)
@@ -105,22 +108,36 @@ def _chain(links: tuple[_Link, ...]) -> Any:
     return chain
 
 
+def _known_as(name: str) -> Callable[[Function], Any]:
+    """Compile a function under a name that no other one has in any process.
+
+    Machine code that several processes kept on disk is linked by name: of two functions that are
+    called the same, the one loaded first would stand for both.
+    """
+
+    def decorate(function: Function) -> Any:
+        function.__name__ = function.__qualname__ = name
+        return compiled(function)
+
+    return decorate
+
+
 @compiled
 def _unchanged(params, states, at, value):  # type: ignore[no-untyped-def]
     return value
 
 
-def _settle_chain(links: tuple[_Link, ...]) -> Any:
+def _settle_chain(links: tuple[_Link, ...], name: str) -> Any:
     """Return a function that writes the states reached after `at.elapsed` seconds."""
     if not any(link.update for link in links):
         return _unchanged
     *_, (_, update, first, last, first_state, last_state) = links
     count, state_count = last - first, last_state - first_state
-    before, settle_before = _chain(links[:-1]), _settle_chain(links[:-1])
+    before, settle_before = _chain(links[:-1], name), _settle_chain(links[:-1], name)
     if update is None:
         return settle_before
 
-    @compiled
+    @_known_as(f'{name}_settle_{len(links)}')
     def settle(params, states, at, value):  # type: ignore[no-untyped-def]
         own = to_fixed_tuple(params[first:last], count)
         state = to_fixed_tuple(states[first_state:last_state], state_count)
