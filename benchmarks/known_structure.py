@@ -20,6 +20,7 @@ from diffbot_sim.identification.stretches import split
 from diffbot_sim.identification.uncertainty import estimates
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects import laws
+from diffbot_sim.records import Run
 
 # Free beside the robot and its friction, and truly zero.
 FREE = ('quadratic_drag', 'slope', 'com_offset', 'force_bias', 'yaw_friction')
@@ -47,15 +48,15 @@ def judged(floor: str, seed: int) -> dict[str, bool]:
     make = tuple(MAKES)[seed % len(MAKES)]
     case = Case('clean', (), '-', make, floor, seed)
     plant, _ = planted_in(case)
-    fit = fitted(case, exact(plant))
+    fit = fitted(recorded(case, plant), exact(plant))
     truth = fit.space.values(fit.space.prior())
     found = estimates(fit).items()
     return {n: e.low <= truth[n] <= e.high for n, e in found if not e.at_bound}
 
 
-def fitted(case: Case, known: Model) -> Fit:
+def fitted(run: Run, known: Model) -> Fit:
     """Fit the numbers of a robot that is declared as it is."""
-    stretches = split([recorded(case, planted_in(case)[0])])[0]
+    stretches = split([run])[0]
     stretches = restarted(calibrate(Space(known, ()), stretches).model, stretches, MAX_STEP)
     space = Space(known, tuple(kind for name, kind in laws().items() if name in FREE))
     return fit_prediction(space, stretches, space.prior(), FIRST_GAINS, evaluations=10, rounds=8)

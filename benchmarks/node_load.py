@@ -12,9 +12,11 @@ from statistics import median
 from time import monotonic, time_ns
 from typing import Any
 
+from diffbot_sim.commands._processes import free_domain
+
 # Before ROS starts: hear no other robot on this machine or beyond it.
 os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
-os.environ['ROS_DOMAIN_ID'] = str(os.getpid() % 100 + 101)
+os.environ['ROS_DOMAIN_ID'] = str(free_domain())
 
 import numpy as np
 import rclpy

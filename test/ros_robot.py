@@ -2,7 +2,7 @@
 
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from signal import SIGTERM
@@ -14,7 +14,10 @@ from geometry_msgs.msg import WrenchStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 
+from diffbot_sim.nodes.conversions import nanoseconds
+
 COMMAND = [sys.executable, '-m', 'diffbot_sim']
+DEPTH = 1000  # messages that may wait while a test is busy
 PATIENCE = 120.0  # seconds; a first start compiles, and others may be compiling too
 
 
@@ -55,6 +58,16 @@ def refusal(*words: str) -> str:
     return line
 
 
+def stamps(messages: Iterable[Any]) -> list[int]:
+    """Return the header stamps [ns] of messages."""
+    return [nanoseconds(message.header.stamp) for message in messages]
+
+
+def ros(node: str, namespace: str, *words: str) -> tuple[str, ...]:
+    """Return the words that start a node in a namespace."""
+    return (node, '--ros-args', '-r', f'__ns:=/{namespace}', *words)
+
+
 class Robot:
     """Listens to one robot and drives it, from the test's own process."""
 
@@ -63,7 +76,7 @@ class Robot:
             rclpy.init()  # for the whole session: what outlives its context crashes
         self.node = Node('tester', namespace=namespace, start_parameter_services=False)
         self.heard: dict[str, list[Any]] = {'odom': []}
-        self.node.create_subscription(Odometry, 'odom', self.heard['odom'].append, 100)
+        self.node.create_subscription(Odometry, 'odom', self.heard['odom'].append, DEPTH)
         self._forces = {
             side: self.node.create_publisher(WrenchStamped, f'{side}_wheel/force_cmd', 10)
             for side in ('left', 'right')
@@ -83,7 +96,7 @@ class Robot:
     def collect(self, kind: Any, topic: str) -> None:
         """Collect a topic's messages from now on."""
         self.heard[topic] = []
-        self.node.create_subscription(kind, topic, self.heard[topic].append, 100)
+        self.node.create_subscription(kind, topic, self.heard[topic].append, DEPTH)
 
     def until(self, reached: Callable[[], Any], patience: float = PATIENCE) -> None:
         """Spin until something is so; fail when it takes too long."""

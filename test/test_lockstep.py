@@ -4,7 +4,7 @@ from math import nan
 
 import pytest
 from geometry_msgs.msg import WrenchStamped
-from ros_robot import Robot, refusal, running
+from ros_robot import Robot, refusal, ros, running
 from std_srvs.srv import SetBool, Trigger
 
 from diffbot_sim.nodes.conversions import nanoseconds, twist_of
@@ -13,10 +13,6 @@ TICK = 10_000_000
 SIMULATOR = ('-p', 'lockstep:=true', '-p', 'odometry_noise.linear:=0.01')
 LOOP = ('-p', 'lockstep:=true', '-p', 'enable_stamped_cmd_vel:=true')
 DRIVER = ('-p', 'stamped:=true', '-p', 'duration:=5.0')
-
-
-def ros(node, namespace, *words):
-    return (node, '--ros-args', '-r', f'__ns:=/{namespace}', *words)
 
 
 def stamp_of(message):
@@ -33,6 +29,7 @@ def odometry_of_a_drive(folder, namespace):
         robot.hear(1)  # again and again the first, for without the driver nothing is answered
         with running(folder / f'{namespace}.driver', *ros('driver', namespace, *DRIVER)) as driver:
             robot.until(lambda: driver.process.poll() is not None)
+        robot.until(lambda: stamp_of(robot.heard['odom'][-1]) >= 500 * TICK)
         return {stamp_of(message): message for message in robot.heard['odom']}
 
 

@@ -10,7 +10,7 @@ import pytest
 from geometry_msgs.msg import Twist, TwistStamped, WrenchStamped
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
-from ros_robot import PATIENCE, Robot, refusal, running
+from ros_robot import PATIENCE, Robot, refusal, running, stamps
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Empty, SetBool
@@ -29,10 +29,6 @@ LOADED = """
     real_time_factor: 2
     cmd_vel_timeout: 0
 """
-
-
-def stamps(messages):
-    return [nanoseconds(message.header.stamp) for message in messages]
 
 
 def twist(kind, v, omega):

@@ -8,21 +8,13 @@ from time import sleep
 import pytest
 from geometry_msgs.msg import PoseWithCovarianceStamped, Twist, WrenchStamped
 from nav_msgs.msg import Odometry
-from ros_robot import Robot, running
+from ros_robot import Robot, ros, running, stamps
 from std_srvs.srv import Empty, Trigger
 
-from diffbot_sim.nodes.conversions import nanoseconds, pose_of, twist_of
+from diffbot_sim.nodes.conversions import pose_of, twist_of
 
 HOUR = 3600 * 10**9
 HOME = ('-p', 'initial_pose.x:=1.5', '-p', 'initial_pose.yaw:=0.5', '-p', 'frame_prefix:=r/')
-
-
-def stamps(messages):
-    return [nanoseconds(message.header.stamp) for message in messages]
-
-
-def ros(node, namespace, *words):
-    return (node, '--ros-args', '-r', f'__ns:=/{namespace}', *words)
 
 
 @pytest.fixture(scope='module')

@@ -78,6 +78,8 @@ class InnerLoop:
 
         A step without limit has no acceleration to speak of: the model gives its friction only.
         """
+        if not settings.feed_forward:
+            return 0.0, 0.0
         limits = (settings.acceleration.linear, settings.acceleration.angular)
         v, omega = (
             (new - old) / dt if limit and dt > 0.0 else 0.0

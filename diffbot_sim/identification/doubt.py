@@ -5,7 +5,7 @@ from math import inf
 
 import numpy as np
 
-from diffbot_sim.identification.bases import again
+from diffbot_sim.identification.bases import Basis, again
 from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.screening import Screen
@@ -18,6 +18,7 @@ from diffbot_sim.identification.structure import (
     describe,
     explained_by,
     find_dependence,
+    sensitivity,
     worth_of,
 )
 from diffbot_sim.physics.effects import Effect
@@ -26,9 +27,9 @@ from diffbot_sim.physics.effects import Effect
 OUTDONE = 10.0
 # An effect that takes this share of its worth from a free form stands or falls with it.
 TAKEN_SHARE = 0.5
-# A law of the right form leaves less than this share of what it explains to a free form from which
-# it takes this share of it, as both are seen through few knots.
-LEFT_SHARE, TOUCHED_SHARE = 0.1, 0.3
+# A law of the right form leaves less than this share of what it explains to a free form that is
+# about the same, as both are seen through few knots: that explains this share of it, too.
+LEFT_SHARE, SAME_SHARE = 0.1, 0.3
 # A name is believed beside structure without a name that explains less than this share of it.
 WORTHIER = 0.5
 
@@ -47,9 +48,10 @@ def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection,
             return _without(selection, kind.name, describe(better, final), held_out)
     worths = ((evidence.delta_bic, name) for name, evidence in selection.support.items())
     worth, weakest = min(worths, default=(inf, ''))
-    better = _outdone(selection.base, final, final.space.kinds) if weakest else None
-    if better is not None:
-        return _without(selection, weakest, describe(better, final), held_out)
+    if len(final.space.kinds) > 1:
+        better = _outdone(selection.base, final, final.space.kinds)
+        if better is not None:
+            return _without(selection, weakest, describe(better, final), held_out)
     left = find_dependence(Screen(final), held_out)
     if left is None:
         return selection, None
@@ -97,10 +99,28 @@ def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
     """Return the free-form force that an effect of a wrong form stands for, if that is so.
 
     rest: the fit that lacks the effect, final: the one that has it; left: what is beyond doubt in
-    it. A law of the right form leaves little of what it takes from a free form. What it does not
-    touch says nothing against it: the declared friction may be of another form than the robot's.
+    it. A law of the right form leaves little to a free form that is about the same. What is about
+    something else says nothing against it: the declared friction may be of another form than the
+    robot's.
     """
+    (kind,) = set(final.space.kinds) - set(rest.space.kinds)
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
     whole = explained_by(Screen(rest), again(left.basis, rest, rest.stretches))
-    touched = whole.fall - left.fall >= TOUCHED_SHARE * worth
-    return whole if touched and left.fall >= LEFT_SHARE * worth else None
+    taken = whole.fall - left.fall
+    # First order promises little where parameters would move far: then nothing seems taken.
+    could = min(whole.fall, _imitated(final, kind, left.basis) * worth)
+    same = max(taken, could) >= SAME_SHARE * worth
+    return whole if same and left.fall >= LEFT_SHARE * worth else None
+
+
+def _imitated(fit: Fit, kind: type[Effect], basis: Basis) -> float:
+    """Return the share of what an effect does, to first order, that a free form can do as well."""
+    own = fit.space.places(kind.name)
+    departure = (fit.u - fit.space.prior())[own]
+    others = np.delete(fit.jacobian, own, axis=-1).reshape(fit.whitened.size, -1)
+    free = sensitivity(fit, fit.stretches, basis).reshape(fit.whitened.size, -1)
+    effect = (fit.jacobian[..., own] @ departure).ravel()
+    rest = effect - others @ np.linalg.lstsq(others, effect, rcond=1e-8)[0]
+    both = np.column_stack([others, free])
+    missed = effect - both @ np.linalg.lstsq(both, effect, rcond=1e-8)[0]
+    return 1.0 - float(missed @ missed) / max(float(rest @ rest), 1e-12)

@@ -115,11 +115,9 @@ def jackknife(fit: Fit) -> Array:
     Shape (p, p). Unlike the sandwich it does not shrink as parameters use up the blocks: CR3 of
     MacKinnon, Nielsen, Webb (2023). What one block alone tells is wide.
     """
-    flat = fit.jacobian.reshape(len(fit.whitened), 2, -1)
-    size = flat.shape[-1]
-    whole = np.tensordot(flat, flat, ((0, 1), (0, 1))) + np.eye(size)
-    scores = block_scores(flat, fit.whitened)
-    parts = [np.tensordot(j, j, ((0, 1), (0, 1))) for j in np.array_split(flat, BLOCKS)]
+    jacobian = fit.jacobian
+    parts = [np.tensordot(j, j, ((0, 1), (0, 1))) for j in np.array_split(jacobian, BLOCKS)]
+    whole, scores = sum(parts, np.eye(jacobian.shape[-1])), block_scores(jacobian, fit.whitened)
     moved = [np.linalg.solve(whole - p, s) for p, s in zip(parts, scores, strict=True)]
     return np.asarray(np.transpose(moved) @ moved * (BLOCKS - 1) / BLOCKS)
 

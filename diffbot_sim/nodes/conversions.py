@@ -95,13 +95,14 @@ def odometry(
     twist: Pair,
     pose_covariance: Array,
     twist_covariance: Array,
+    frame_prefix: str = '',
     into: Odometry | None = None,
 ) -> Odometry:
     """Return x, y [m], heading [rad] and v [m/s], ω [rad/s] with flat 6x6 covariances."""
     message = into or Odometry()
     message.header.stamp = time(stamp)
-    message.header.frame_id = WORLD
-    message.child_frame_id = BODY
+    message.header.frame_id = frame_prefix + WORLD
+    message.child_frame_id = frame_prefix + BODY
     place, turn = message.pose.pose.position, message.pose.pose.orientation
     place.x, place.y, heading = pose
     turn.z, turn.w = sin(heading / 2.0), cos(heading / 2.0)

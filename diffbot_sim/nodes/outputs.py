@@ -50,10 +50,9 @@ class Outputs:
             odometer.measure(plant.twist),
             odometer.pose_covariance,
             odometer.twist_covariance,
+            self._prefix,
             into=self._last,
         )
-        self._last.header.frame_id = self.world
-        self._last.child_frame_id = self._prefix + conversions.BODY
         self.repeat()
 
     def repeat(self) -> None:
