@@ -1,7 +1,7 @@
 """Recorder and replay as processes: what was driven comes back."""
 
 from pathlib import Path
-from signal import SIGINT, SIGKILL, SIGTERM
+from signal import SIGCONT, SIGINT, SIGKILL, SIGSTOP, SIGTERM
 from time import time_ns
 
 import numpy as np
@@ -137,6 +137,22 @@ def test_a_killed_recorder_loses_a_second_at_most(robot, simulator, tmp_path, st
     saved = recover(tmp_path / 'bag', tmp_path / 'whole').saved['/odom']
     assert killed - saved.last < 2e9
     assert saved.count > 150
+
+
+def test_a_recorder_that_gets_no_time_loses_no_message(robot, simulator, tmp_path):
+    words = ('recorder', '--output', str(tmp_path / 'bag'))
+    with running(tmp_path / 'log', *words) as recorder:
+        robot.until(lambda: 'first message' in recorder.said())
+        robot.hear(50)
+        recorder.process.send_signal(SIGSTOP)
+        robot.hear(300)
+        recorder.process.send_signal(SIGCONT)
+        robot.hear(50)
+        assert recorder.stop() == 0
+    run = read_run(tmp_path / 'bag').run
+    assert len(run.odometry.time) > 300
+    for time in (run.odometry.time, run.commands.time):
+        np.testing.assert_allclose(np.diff(time), 0.01, atol=1e-6)
 
 
 def test_an_unfinished_bag_is_told(tmp_path):

@@ -17,7 +17,7 @@ from diffbot_sim.physics import Plant
 SIDES = ('right', 'left')
 DEPTH = 10
 # Messages kept for a listener that is busy, so that a recording on a busy machine has no gap.
-KEPT = 100
+KEPT = 1000
 
 
 class Outputs:
