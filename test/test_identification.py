@@ -11,6 +11,7 @@ from diffbot_sim.identification import identify
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.physics import Friction, Model, Robot
 from diffbot_sim.physics.effects import laws, library
+from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForce
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
 from diffbot_sim.records import Commands, Odometry, Run
 
@@ -116,6 +117,16 @@ def test_effect_that_only_resembles_what_acts_is_not_named() -> None:
     assert result.effects == ()
     assert result.unexplained is not None
     assert result.unexplained.variable == 'past_force'
+
+
+def test_friction_of_another_form_than_declared_takes_no_name_away() -> None:
+    force = 0.12 * np.array([1.0, 0.3, 0.0, -0.2, 0.0, 0.4])  # against the motion, by speed [N]
+    points = np.concatenate([force[::-1], -force])
+    other = EmpiricalWheelForce('wheels', 'wheel_speed', -2.5, 2.5, *points.tolist())
+    result = identify([run_of(with_typical('friction_drift').with_effect(other), 3)], DECLARED)
+    assert [effect.name for effect in result.effects] == ['friction_drift']
+    assert result.unexplained is not None
+    assert result.unexplained.variable == 'wheel_speed'
 
 
 def test_interval_is_narrow_and_near_the_truth() -> None:

@@ -17,7 +17,7 @@ from diffbot_sim.nodes.running import parse, parser, run
 from diffbot_sim.nodes.targets import chosen, commands
 from diffbot_sim.nodes.transport import HELP, SOON, Transport, spin
 
-DEPTH = 100
+DEPTH = 1000
 PATIENCE = 5.0  # [s] to wait for listeners
 CLOCK = 40.0  # [Hz] of /clock where nobody says; that of `ros2 bag play`
 
