@@ -14,9 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 
-from diffbot_sim.identification.comparison import noise, norm, run_free
+from diffbot_sim.identification.comparison import run_free
 from diffbot_sim.identification.evidence import BLOCKS, block_scores
 from diffbot_sim.identification.fitting import Fit, fit_with_noise_held
+from diffbot_sim.identification.norms import noise_floor, norm
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import Difference, Estimate, RunCheck
 from diffbot_sim.identification.start import restarted
@@ -162,7 +163,7 @@ def _others(runs: int, index: int, aside: frozenset[int]) -> list[int]:
 def _check(fit: Fit, own: Estimated, others: Estimated, runs: int) -> RunCheck:
     """Describe one run: its error with the parameters of the others, and what differs."""
     (stretch,) = fit.stretches
-    errors = stretch.twist - run_free(fit.space.model(others.u), stretch).twist
+    predicted = run_free(fit.space.model(others.u), stretch).twist
     chance = chances(fit, own, others, runs)
     here, there = (estimates_at(fit.space, *estimated) for estimated in (own, others))
     names = [coordinate.name for coordinate in fit.space.coordinates]
@@ -171,7 +172,8 @@ def _check(fit: Fit, own: Estimated, others: Estimated, runs: int) -> RunCheck:
         for index in np.argsort(chance, kind='stable')
         if chance[index] < LEVEL and _apart(here[names[index]], there[names[index]])
     )
-    return RunCheck(stretch.run.name, norm(errors), norm(noise(errors)), differences)
+    floor = noise_floor([stretch.twist], [predicted])
+    return RunCheck(stretch.run.name, norm(stretch.twist - predicted), floor, differences)
 
 
 def _apart(here: Estimate, there: Estimate) -> bool:

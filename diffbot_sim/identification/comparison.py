@@ -5,13 +5,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from diffbot_sim.identification.fitting import Fit, predictions
+from diffbot_sim.identification.norms import noise_floor, norm
 from diffbot_sim.identification.result import Comparison, ErrorNorm, Errors
 from diffbot_sim.identification.start import start_of
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.physics import simulate
 from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.model import Model
-from diffbot_sim.records import Array, Trajectory
+from diffbot_sim.records import Trajectory
 
 MAX_STEP = 0.005
 
@@ -47,24 +48,7 @@ def errors_of(comparisons: Sequence[Comparison], split: str) -> Errors:
     def pooled(name: str) -> ErrorNorm:
         return norm(np.concatenate([c.twist - getattr(c, name).twist for c in comparisons]))
 
-    floor = np.concatenate([noise(c.twist - c.with_effects.twist) for c in comparisons])
-    return Errors(
-        split, pooled('declared'), pooled('recalibrated'), pooled('with_effects'), norm(floor)
+    floor = noise_floor(
+        [c.twist for c in comparisons], [c.with_effects.twist for c in comparisons]
     )
-
-
-def norm(errors: Array) -> ErrorNorm:
-    """Return root mean squares of the columns v and ω."""
-    v, omega = np.sqrt(np.mean(errors**2, axis=0))
-    return ErrorNorm(float(v), float(omega))
-
-
-def noise(errors: Array) -> Array:
-    """Return what white measurement noise leaves in the second differences, scaled back.
-
-    Model errors are smooth from sample to sample and vanish there. The few largest, where a stop
-    is a sample early or late, are left out.
-    """
-    noise = np.diff(errors, n=2, axis=0) / np.sqrt(6.0)
-    limit = 5.0 * 1.4826 * np.median(np.abs(noise), axis=0)
-    return np.where(np.abs(noise) <= np.maximum(limit, 1e-12), noise, 0.0)
+    return Errors(split, pooled('declared'), pooled('recalibrated'), pooled('with_effects'), floor)

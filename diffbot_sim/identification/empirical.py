@@ -5,8 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from diffbot_sim.identification.comparison import norm, run_free
+from diffbot_sim.identification.comparison import run_free
 from diffbot_sim.identification.fitting import Fit, fit_simulation
+from diffbot_sim.identification.norms import norm
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.physics.effects import empirical_force, empirical_wheel_force

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from diffbot_sim.identification.comparison import norm
 from diffbot_sim.identification.fitting import Fit
+from diffbot_sim.identification.norms import norm
 from diffbot_sim.identification.predictor import MAX_STEP, predict
 from diffbot_sim.identification.result import Errors, Horizon
 from diffbot_sim.identification.start import WINDOW
