@@ -27,9 +27,9 @@ from diffbot_sim.physics.effects import Effect
 OUTDONE = 10.0
 # An effect that takes this share of its worth from a free form stands or falls with it.
 TAKEN_SHARE = 0.5
-# A law of the right form leaves less than this share of what it explains to a free form that is
-# about the same, as both are seen through few knots: that explains this share of it, too.
-LEFT_SHARE, SAME_SHARE = 0.1, 0.3
+# Shares of what an effect explains. A law of the right form leaves less than the first to a free
+# form that is about the same: from which it takes, or which could do, more than the second.
+LEFT_SHARE, SAME_SHARE = 0.1, 0.15
 # A name is believed beside structure without a name that explains less than this share of it.
 WORTHIER = 0.5
 

@@ -112,8 +112,10 @@ def whitened(
     for index, stretch in enumerate(stretches):
         push = None if pushes is None else pushes[index]
         innovation = predict(model, stretch, gains, push).innovation
-        rows.append((innovation * stretch.used[:, None])[stretch.used > 0] / sigma)
-    # Parameters far from any robot make numbers that cannot be squared; they only have to be bad.
+        used = (innovation * stretch.used[:, None])[stretch.used > 0]
+        # Parameters far from any robot make numbers that cannot be squared: these only have to
+        # be bad.
+        rows.append(np.clip(used, -WORST, WORST) / sigma)
     return np.nan_to_num(np.clip(np.concatenate(rows), -WORST, WORST), nan=WORST)
 
 
