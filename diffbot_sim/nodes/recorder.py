@@ -29,6 +29,8 @@ KNOWN = {
 LOOK_AGAIN = 0.2  # [s] between looks at who publishes
 FLUSH = 1.0  # [s] of messages that may be lost when the process is killed
 DEPTH = 1000  # messages that may wait while the disk is busy
+# [ns] that a message may have waited for others, sent again; more, and the clock was set back.
+LONGEST_WAIT = 30 * 10**9
 
 
 class Source(NamedTuple):
@@ -48,7 +50,7 @@ class Recorder(Node):
         self._writer = recording(folder, live.value.storage, _limits(live.value))
         self._sources: dict[str, Source] = {}
         self._listeners: dict[str, Any] = {}
-        self._heard: set[str] = set()
+        self._heard: dict[str, int] = {}  # when the last message of a topic came [ns]
         self._wanted = live.value.topics
         self._look()
         self.create_timer(LOOK_AGAIN, self._look)
@@ -117,15 +119,19 @@ class Recorder(Node):
     def _on_message(self, topic: str, source: Source, data: bytes, info: Any) -> None:
         if not self._heard:
             self.get_logger().info(f'first message: {topic}')
-        self._heard.add(topic)
+        stamp = self._heard[topic] = self._received(topic, info)
         name = self._listeners[topic].topic_name
-        self._writer.write(Raw(self._received(info), name, source.kind, data), source.offer)
+        self._writer.write(Raw(stamp, name, source.kind, data), source.offer)
 
-    def _received(self, info: Any) -> int:
-        """Return when a message came [ns]: as the middleware says, for this node may be busy."""
+    def _received(self, topic: str, info: Any) -> int:
+        """Return when a message came [ns]: as the middleware says, for this node may be busy.
+
+        Messages are handed over in order, though after a stall later ones may have come first.
+        """
         if self.get_parameter('use_sim_time').value:
             return self.get_clock().now().nanoseconds
-        return int(info['received_timestamp'])
+        stamp, last = int(info['received_timestamp']), self._heard.get(topic, 0)
+        return last if stamp < last < stamp + LONGEST_WAIT else stamp
 
     def _make(self, values: Values) -> RecorderSettings:
         return build(RecorderSettings, values)
