@@ -57,7 +57,7 @@ def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection,
         return selection, None
     for kind in final.space.kinds:
         rest = selection.without[kind.name]
-        whole = _free_form_of(rest, final, left)
+        whole = _free_form_of(rest, final, kind, left)
         if whole is not None:
             return _without(selection, kind.name, describe(whole, rest), held_out)
     if WORTHIER * worth > worth_of(left, final):
@@ -95,7 +95,9 @@ def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence
     return None if stands else best
 
 
-def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
+def _free_form_of(
+    rest: Fit, final: Fit, kind: type[Effect], left: Dependence
+) -> Dependence | None:
     """Return the free-form force that an effect of a wrong form stands for, if that is so.
 
     rest: the fit that lacks the effect, final: the one that has it; left: what is beyond doubt in
@@ -103,14 +105,14 @@ def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
     something else says nothing against it: the declared friction may be of another form than the
     robot's.
     """
-    (kind,) = set(final.space.kinds) - set(rest.space.kinds)
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
+    if left.fall < LEFT_SHARE * worth:
+        return None
     whole = explained_by(Screen(rest), again(left.basis, rest, rest.stretches))
     taken = whole.fall - left.fall
     # First order promises little where parameters would move far: then nothing seems taken.
     could = min(whole.fall, _imitated(final, kind, left.basis) * worth)
-    same = max(taken, could) >= SAME_SHARE * worth
-    return whole if same and left.fall >= LEFT_SHARE * worth else None
+    return whole if max(taken, could) >= SAME_SHARE * worth else None
 
 
 def _imitated(fit: Fit, kind: type[Effect], basis: Basis) -> float:

@@ -115,8 +115,8 @@ def whitened(
         used = (innovation * stretch.used[:, None])[stretch.used > 0]
         # Parameters far from any robot make numbers that cannot be squared: these only have to
         # be bad.
-        rows.append(np.clip(used, -WORST, WORST) / sigma)
-    return np.nan_to_num(np.clip(np.concatenate(rows), -WORST, WORST), nan=WORST)
+        rows.append(np.clip(used, -WORST * sigma, WORST * sigma) / sigma)
+    return np.nan_to_num(np.concatenate(rows), nan=WORST)
 
 
 def predictions(fit: Fit, stretches: Sequence[Stretch]) -> list[Prediction]:

@@ -44,4 +44,4 @@ def _white(errors: Array) -> Array:
 def resolution(twist: Array) -> Array:
     """Return the smallest steps in which v and ω are told, shape (2,): next to 0 for noise."""
     steps = [np.diff(np.unique(np.round(column / SAME))) * SAME for column in twist.T]
-    return np.array([step.min(initial=np.inf) if step.size else 0.0 for step in steps])
+    return np.array([step.min() if step.size else 0.0 for step in steps])

@@ -59,15 +59,17 @@ def compose(kinds: tuple[type[Effect], ...]) -> tuple[Laws, Settle]:
     """Compile the functions for a set of effects, given in order of evaluation."""
     links, key = _links(kinds), _key(kinds)
     driving = links[Stage.COMMAND] + links[Stage.ACTUATOR]
-    chains = {
-        'drive': _chain(driving, f'drive_{key}'),
-        'rub': _chain(links[Stage.WHEEL_FRICTION], f'rub_{key}'),
-        'push': _chain(links[Stage.BODY_LOAD], f'push_{key}'),
-        'weigh': _chain(links[Stage.INERTIA], f'weigh_{key}'),
+    parts = {
+        'drive': driving,
+        'rub': links[Stage.WHEEL_FRICTION],
+        'push': links[Stage.BODY_LOAD],
+        'weigh': links[Stage.INERTIA],
     }
-    laws = entry(LAWS_SIGNATURE, key)(_bound(_laws, chains))
-    return laws, entry(SETTLE_SIGNATURE, key)(
-        _bound(_settle, {'live': _settle_chain(driving, f'live_{key}')})
+    chains = {name: _chain(part, f'{name}_{key}') for name, part in parts.items()}
+    live = _settle_chain(driving, f'live_{key}')
+    return (
+        entry(LAWS_SIGNATURE, key)(_bound(_laws, chains)),
+        entry(SETTLE_SIGNATURE, key)(_bound(_settle, {'live': live})),
     )
 
 
