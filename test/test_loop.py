@@ -9,6 +9,7 @@ import pytest
 
 from diffbot_sim.__main__ import main
 from diffbot_sim.bags import read_run
+from diffbot_sim.commands.demo import NOISE
 from diffbot_sim.config import load_model
 from diffbot_sim.physics import Model, simulate
 
@@ -33,6 +34,12 @@ def speed_error(model: Model, bag: Path) -> float:
     run = read_run(bag).run
     twist = simulate(model, run.commands, run.odometry.time).twist
     return float(np.sqrt(np.mean((run.odometry.twist - twist)[:, 0] ** 2)))
+
+
+@pytest.mark.parametrize('bag', ['bag', 'again'])
+def test_a_drive_is_recorded_from_its_beginning(told: Path, bag: str) -> None:
+    standing = read_run(told / bag).run.odometry.twist[:10]
+    assert np.abs(standing).max() < 5.0 * max(NOISE.values())
 
 
 def test_effect_hidden_in_the_simulator_is_identified_from_its_bag(told: Path) -> None:

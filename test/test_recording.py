@@ -18,6 +18,8 @@ from diffbot_sim.errors import BagError
 from diffbot_sim.nodes.conversions import pose_of, twist_of
 from diffbot_sim.physics import Model, simulate
 
+WHEELS = [f'{s}_wheel/{n}' for s in ('left', 'right') for n in ('force', 'friction')]
+SPOKEN = ['odom', 'joint_states', *WHEELS]  # by the simulator
 PUSHES = ((12.0, 11.0, 40), (0.0, 0.0, 160))
 COUNT = sum(count for *_, count in PUSHES)
 
@@ -40,7 +42,7 @@ def bag(tmp_path_factory, robot, simulator):
     """Record a drive of pushes and a stop; end the recording with SIGTERM."""
     folder = tmp_path_factory.mktemp('recorder')
     with running(folder / 'log', 'recorder', '--output', str(folder / 'bag')) as recorder:
-        robot.until(lambda: 'first message' in recorder.said())
+        robot.until(lambda: all(f'hears {topic}\n' in recorder.said() for topic in SPOKEN))
         robot.until(lambda: robot.listeners() > 1)
         robot.hear(20)  # who has just begun to record is late, and its spacing of the bag wrong
         for push in PUSHES:
@@ -58,8 +60,7 @@ def recorded(bag: Path) -> dict[str, int]:
 
 def test_a_recording_holds_every_message_of_every_topic(bag):
     counts = recorded(bag)
-    wheels = [f'/{s}_wheel/{n}' for s in ('left', 'right') for n in ('force', 'friction')]
-    assert min(counts[topic] for topic in ['/odom', '/joint_states', *wheels]) >= COUNT
+    assert min(counts[f'/{topic}'] for topic in SPOKEN) >= COUNT
     sent = [counts[f'/{side}_wheel/force_cmd'] for side in ('left', 'right')]
     assert min(sent) >= COUNT - 2  # one may be on its way when the signal comes
 
@@ -130,7 +131,7 @@ def test_a_recording_in_parts_is_one_bag(robot, simulator, tmp_path):
 def test_a_killed_recorder_loses_a_second_at_most(robot, simulator, tmp_path, storage):
     words = ('--output', str(tmp_path / 'bag'), '--storage', storage)
     with running(tmp_path / 'log', 'recorder', *words) as recorder:
-        robot.until(lambda: 'first message' in recorder.said())
+        robot.until(lambda: 'hears odom' in recorder.said())
         robot.hear(350)
         recorder.stop(SIGKILL)
         killed = time_ns()
@@ -142,7 +143,7 @@ def test_a_killed_recorder_loses_a_second_at_most(robot, simulator, tmp_path, st
 def test_a_recorder_that_gets_no_time_loses_no_message(robot, simulator, tmp_path):
     words = ('recorder', '--output', str(tmp_path / 'bag'))
     with running(tmp_path / 'log', *words) as recorder:
-        robot.until(lambda: 'first message' in recorder.said())
+        robot.until(lambda: 'hears odom' in recorder.said())
         robot.hear(50)
         recorder.process.send_signal(SIGSTOP)
         robot.hear(300)

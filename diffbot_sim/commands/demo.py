@@ -22,6 +22,7 @@ from diffbot_sim.physics.model import Model
 NOISE = {'linear': 0.004, 'angular': 0.008}  # of the odometry [m/s], [rad/s]
 RATE, SPEED_UP = 50.0, 3.0  # odometry [Hz]; simulation over wall time
 LEARNING, AGAIN = 100.0, 30.0  # lengths of the drives [s]
+RECORDED = ('odom', 'right_wheel/force_cmd', 'left_wheel/force_cmd')  # what `identify` needs
 # The hidden robot's nominal parameters are off the declared ones by up to this share, and the
 # effect has this many typical sizes.
 MISCALIBRATION, SIZES = 0.1, (2.0, 5.0)
@@ -96,7 +97,9 @@ def drive(params: Path, bag: Path, duration: float, seed: int) -> None:
         file = ('--ros-args', '--params-file', str(params))
         start('simulator', 'ready', *file, *_set(options))
         start('pi_controller', 'ready', *file)
-        start('recorder', 'recording', '--output', str(bag))
+        recorder = start('recorder', 'recording', '--output', str(bag))
+        for topic in RECORDED:  # nodes may find each other late: then the drive's begin is lost
+            recorder.wait_for(f'hears {topic}')
         words = _set({'duration': duration, 'seed': seed})
         driver = start('driver', 'driving', '--ros-args', *words)
         driver.wait(10.0 * duration)

@@ -103,7 +103,7 @@ def _completed(
 ) -> Trial:
     fit = complete(approached.near)
     evidence = compare(current, fit, held_out)
-    outcome = judge(evidence, tried * approached.score.shapes)
+    outcome = judge(evidence, tried, approached.score.shapes)
     return Trial(approached.kind, fit, evidence, outcome)
 
 
@@ -128,13 +128,14 @@ def may_be_chance(evidence: Evidence, tried: int) -> bool:
     return evidence.p_value * tried > LIKELIHOOD_LEVEL or evidence.delta_bic <= 0.0
 
 
-def judge(evidence: Evidence, tried: int) -> str:
-    """Say whether an effect may enter, or why not."""
-    if may_be_chance(evidence, tried):
+def judge(evidence: Evidence, tried: int, shapes: int = 1) -> str:
+    """Say whether an effect, the best of so many shapes, may enter, or why not."""
+    if may_be_chance(evidence, tried * shapes):
         return CHANCE
-    if evidence.p_block > BLOCK_LEVEL:
+    p_block = shapes * evidence.p_block
+    if p_block > BLOCK_LEVEL:
         return 'not beyond a disturbance that changes slowly'
-    sure = evidence.p_block < BEYOND_DOUBT and evidence.held_out_gain > 0.0
+    sure = p_block < BEYOND_DOUBT and evidence.held_out_gain > 0.0
     if evidence.p_held_out > HELD_OUT_LEVEL and not sure:
         return 'does not predict held-out data better'
     return SUPPORTED

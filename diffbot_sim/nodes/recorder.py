@@ -117,8 +117,8 @@ class Recorder(Node):
         return self.create_subscription(kind, topic, act, quality, raw=True)
 
     def _on_message(self, topic: str, source: Source, data: bytes, info: Any) -> None:
-        if not self._heard:
-            self.get_logger().info(f'first message: {topic}')
+        if topic not in self._heard:
+            self.get_logger().info(f'hears {topic}')
         stamp = self._heard[topic] = self._received(topic, info)
         name = self._listeners[topic].topic_name
         self._writer.write(Raw(stamp, name, source.kind, data), source.offer)
