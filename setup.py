@@ -36,7 +36,6 @@ setup(
     # rclpy and the messages come with ROS, or from requirements.lock where there is none.
     install_requires=[
         'jinja2',
-        'joblib',
         'matplotlib',
         'mcap',
         'numba',

@@ -16,6 +16,8 @@ from diffbot_sim.parameters import suggestion
 
 NODES = ('simulator', 'pi_controller', 'driver', 'recorder', 'replay')
 INTERRUPTED = 130
+# Our own threads share the work; those of linear algebra would only wait for each other.
+THREADS = ('OPENBLAS_NUM_THREADS', 'OMP_NUM_THREADS', 'MKL_NUM_THREADS')
 
 
 def main(argv: Sequence[str] | None = None, command: str | None = None) -> int:
@@ -94,6 +96,8 @@ def _summaries(room: str, names: Iterable[str]) -> Iterator[tuple[str, str]]:
 
 
 def _loaded(module: str) -> Any:
+    for name in THREADS:  # read when numpy is loaded, which is now
+        os.environ.setdefault(name, '1')
     try:
         return import_module(f'diffbot_sim.{module}')
     except ImportError as error:
