@@ -8,6 +8,7 @@ from argparse import ArgumentParser, RawDescriptionHelpFormatter
 from collections.abc import Iterable, Iterator, Sequence
 from importlib import import_module
 from importlib.resources import files
+from threading import Timer
 from typing import Any, NoReturn
 
 from diffbot_sim import __version__
@@ -16,6 +17,8 @@ from diffbot_sim.parameters import suggestion
 
 NODES = ('simulator', 'pi_controller', 'driver', 'recorder', 'replay')
 INTERRUPTED = 130
+SILENT = 8.0  # [s]
+COMPILES = 'loading; the first start compiles the laws of motion, which takes some 20 s'
 # Our own threads share the work; those of linear algebra would only wait for each other.
 THREADS = ('OPENBLAS_NUM_THREADS', 'OMP_NUM_THREADS', 'MKL_NUM_THREADS')
 
@@ -98,6 +101,8 @@ def _summaries(room: str, names: Iterable[str]) -> Iterator[tuple[str, str]]:
 def _loaded(module: str) -> Any:
     for name in THREADS:  # read when numpy is loaded, which is now
         os.environ.setdefault(name, '1')
+    explains = Timer(SILENT, print, [COMPILES], {'file': sys.stderr, 'flush': True})
+    explains.start()
     try:
         return import_module(f'diffbot_sim.{module}')
     except ImportError as error:
@@ -108,6 +113,8 @@ def _loaded(module: str) -> Any:
             f"{module.rpartition('.')[2]} needs '{missing}', which is not installed. Source a "
             "ROS 2 workspace (Jazzy or Kilted), or use the Python of 'make' in .venv/bin."
         ) from error
+    finally:
+        explains.cancel()
 
 
 def _hush() -> int:
