@@ -225,6 +225,13 @@ def test_verdict_tells_of_the_axis_that_improved() -> None:
     assert 'turn-rate error falls from 200 mrad/s to 8.10 mrad/s' in said
 
 
+@pytest.mark.parametrize(('error', 'told'), [(0.0041, False), (0.04, True)])
+def test_error_far_above_the_noise_is_not_passed_over(error: float, told: bool) -> None:
+    left = replace(by_hand.errors(error), recalibrated=by_hand.ErrorNorm(error, 0.008))
+    said = sentences.verdict(replace(by_hand.nothing_missing(), errors=left))
+    assert ('uneven floor' in said) == told
+
+
 @pytest.mark.parametrize(
     ('estimate', 'text'),
     [

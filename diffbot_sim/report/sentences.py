@@ -19,6 +19,10 @@ SPLITS = {
     'held_out': 'on the last part of each run, which was not fitted',
 }
 
+# Errors within this many noise floors need no words; what more there is has no visible cause.
+NEAR = 1.5
+PUSHED = '; what lies between follows nothing that was recorded, as pushes of an uneven floor do'
+
 
 def verdict(result: Identification) -> str:
     """Say the answer in one sentence."""
@@ -34,10 +38,12 @@ def verdict(result: Identification) -> str:
 
 def _sufficient(errors: Errors) -> str:
     left, floor = errors.recalibrated, errors.noise_floor
+    near = left.v_rmse < NEAR * floor.v_rmse and left.omega_rmse < NEAR * floor.omega_rmse
+    rest = '' if near else PUSHED
     return (
         'recalibrated, the declared model predicts held-out speed to '
         f'{_speed(left.v_rmse)} and turn rate to {_rate(left.omega_rmse)}; '
-        f'noise floor {_speed(floor.v_rmse)} and {_rate(floor.omega_rmse)}'
+        f'noise floor {_speed(floor.v_rmse)} and {_rate(floor.omega_rmse)}{rest}'
     )
 
 
