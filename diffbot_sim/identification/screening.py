@@ -53,6 +53,7 @@ class Screen:
         self._basis = np.linalg.svd(free, full_matrices=False)[0]
         self._jacobian = jacobian
         self._errors = self.project(influence(fit.whitened))
+        self._scores = dict[type[Effect], Score]()
 
     @property
     def residual(self) -> Array:
@@ -81,6 +82,11 @@ class Screen:
 
     def score(self, kind: type[Effect]) -> Score:
         """Try small amounts of an effect, in each of its shapes, and its starts as they stand."""
+        if kind not in self._scores:
+            self._scores[kind] = self._scored(kind)
+        return self._scores[kind]
+
+    def _scored(self, kind: type[Effect]) -> Score:
         space = Space(self.fit.space.declared, (*self.fit.space.kinds, kind))
         starts = [point_of(kind, values) for values in kind.starts(self.drive)]
         if kind.shape:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from operator import itemgetter
 
 from diffbot_sim.identification.candidates import approach, begun_anew, complete, reduce
 from diffbot_sim.identification.evidence import Evidence, compare, delta_bic
@@ -57,22 +58,23 @@ def select(
     progress: Progress,
 ) -> Selection:
     """Search the structures made of these effects."""
-    current, last, path = base, dict[str, Trial](), [base]
-    while len(current.space.kinds) < MOST_EFFECTS:
-        trials = try_all(current, kinds, held_out, progress)
+    last, path = dict[str, Trial](), [Screen(base)]
+    while len(path) <= MOST_EFFECTS:
+        trials = try_all(path[-1], kinds, held_out, progress)
         last.update({trial.kind.name: trial for trial in trials})
-        entering = [trial for trial in trials if trial.accepted]
+        entering = [(t.evidence.delta_bic, t.fit) for t in trials if t.accepted and t.fit]
         if not entering:
             break
-        best = max(entering, key=lambda trial: trial.evidence.delta_bic)
-        progress(f'{best.kind.name} enters')
-        current = current if best.fit is None else begun_anew(best.fit)
-        path.append(current)
-    final, without, support = _prune(path, len(kinds), held_out, progress)
+        _, best = max(entering, key=itemgetter(0))
+        progress(f'{best.space.kinds[-1].name} enters')
+        path.append(Screen(begun_anew(best)))
+    fits = [screen.fit for screen in path]
+    final, without, support = _prune(fits, len(kinds), held_out, progress)
     chosen = set(without)
     trials = sorted(last.values(), key=lambda t: (t.kind.name in chosen, t.evidence.delta_bic))
     alternatives = {
-        name: _alternatives(final, rest, kinds, progress) for name, rest in without.items()
+        name: _alternatives(final, _screened(rest, path), kinds, progress)
+        for name, rest in without.items()
     }
     return Selection(base, final, tuple(reversed(trials)), without, support, alternatives)
 
@@ -103,12 +105,16 @@ def _prune(
         fit = smaller[worst]
 
 
+def _screened(fit: Fit, path: Sequence[Screen]) -> Screen:
+    """Return the screen of a fit; those of the path know its scores already."""
+    return next((screen for screen in path if screen.fit is fit), None) or Screen(fit)
+
+
 def _alternatives(
-    final: Fit, rest: Fit, kinds: Sequence[type[Effect]], progress: Progress
+    final: Fit, screen: Screen, kinds: Sequence[type[Effect]], progress: Progress
 ) -> tuple[str, ...]:
     """Return effects that, added to the rest, explain the data as well as what was found."""
-    screen = Screen(rest)
-    worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
+    worth = screen.fit.deviance(final.sigma) - final.deviance(final.sigma)
     present = {effect.name for effect in final.model.effects}
     found = []
     for kind in kinds:

@@ -60,10 +60,10 @@ class _Approach:
 
 
 def try_all(
-    current: Fit, kinds: Sequence[type[Effect]], held_out: Sequence[Stretch], progress: Progress
+    screen: Screen, kinds: Sequence[type[Effect]], held_out: Sequence[Stretch], progress: Progress
 ) -> list[Trial]:
     """Screen every effect that is not there yet; fit and weigh what is promising."""
-    screen, present = Screen(current), {effect.name for effect in current.model.effects}
+    present = {effect.name for effect in screen.fit.model.effects}
     scores = {}
     for kind in kinds:
         if kind.name not in present:
@@ -74,7 +74,7 @@ def try_all(
     leaders, others = _race(screen, promising, progress)
 
     def judged(approaches: Sequence[_Approach]) -> list[Trial]:
-        return [_completed(current, a, held_out, len(kinds)) for a in approaches]
+        return [_completed(screen.fit, a, held_out, len(kinds)) for a in approaches]
 
     first = judged(leaders)
     if any(trial.accepted for trial in first):
