@@ -5,8 +5,9 @@ from itertools import product
 import numpy as np
 
 from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.fitting import Fit, fit_simulation, huber, whitened
+from diffbot_sim.identification.fitting import Fit, fit_simulation, whitened
 from diffbot_sim.identification.predictor import NO_GAIN
+from diffbot_sim.identification.robust import huber
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.records import Array
 

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from diffbot_sim.identification.fitting import Fit, huber, influence, whitened
+from diffbot_sim.identification.fitting import Fit, whitened
 from diffbot_sim.identification.predictor import MAX_STEP
+from diffbot_sim.identification.robust import huber, influence
 from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.records import Array

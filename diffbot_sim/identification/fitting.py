@@ -1,17 +1,15 @@
 """Fits: robust least squares on whitened prediction errors, noise model included."""
 
-from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from os import cpu_count
-from typing import NamedTuple, TypeVar
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from diffbot_sim.identification.coordinates import PRIOR_DEVIATION, Space
+from diffbot_sim.identification.minimisation import Prior, derivatives, minimise
 from diffbot_sim.identification.predictor import NO_GAIN, Prediction, predict
+from diffbot_sim.identification.robust import huber
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array
@@ -20,25 +18,10 @@ from diffbot_sim.records import Array
 FIRST_GAINS = np.array([0.05, 0.005, 0.3, 0.05, 0.005, 0.3])
 GAIN_LIMITS = (np.zeros(6), np.array([0.95, 0.5, 0.999, 0.95, 0.5, 0.999]))
 GAIN_PRIOR = np.array([0.0, 0.0, 0.3, 0.0, 0.0, 0.3])
-# Beyond this many standard deviations an error counts linearly: events cannot dominate.
-HUBER = 3.0
 # An error that is as bad as any.
 WORST = 1e9
-# Step of finite differences, in coordinates of order one.
-DIFFERENCE = 1e-5
-# A scale that changes by less than this share between two rounds has settled.
-SETTLED = 0.002
-Errors = Callable[[Array, Array], Array]
-Item = TypeVar('Item')
-Result = TypeVar('Result')
-_POOL = ThreadPoolExecutor(max_workers=cpu_count())
-
-
-class Prior(NamedTuple):
-    """Where coordinates are pulled to, and how weakly."""
-
-    centre: Array
-    deviation: Array
+# The scale of errors that are told in m/s and rad/s.
+UNIT = np.ones(2)
 
 
 @dataclass(frozen=True)
@@ -81,23 +64,7 @@ class Fit:
             return whitened(stretches, self.space.model(point[:size]), point[size:], self.sigma)
 
         point = np.concatenate([self.u, self.gains])
-        return np.stack(_columns(errors, point, errors(point)), axis=-1)
-
-
-def each(work: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
-    """Return work done on every item, on all cores; work must not call this itself."""
-    return list(_POOL.map(work, items))
-
-
-def huber(errors: Array) -> Array:
-    """Return the robust squares of whitened errors."""
-    size = np.abs(errors)
-    return np.where(size <= HUBER, size**2, 2.0 * HUBER * size - HUBER**2)
-
-
-def influence(errors: Array) -> Array:
-    """Return how much whitened errors count in robust sums: the derivative of huber, halved."""
-    return np.clip(errors, -HUBER, HUBER)
+        return derivatives(errors, point, errors(point))
 
 
 def whitened(
@@ -124,13 +91,6 @@ def predictions(fit: Fit, stretches: Sequence[Stretch]) -> list[Prediction]:
     return [predict(fit.model, stretch, fit.gains) for stretch in stretches]
 
 
-def scale_of(errors: Array) -> Array:
-    """Return robust standard deviations of the columns; never zero."""
-    middle = np.median(np.abs(errors), axis=0) * 1.4826
-    plain = np.sqrt(np.mean(np.clip(errors, -5 * middle - 1e-12, 5 * middle + 1e-12) ** 2, axis=0))
-    return np.maximum(np.where(plain > 0, plain, 1e-9), 1e-9)
-
-
 def fit_simulation(
     space: Space, stretches: tuple[Stretch, ...], start: Array, evaluations: int = 25
 ) -> Fit:
@@ -148,11 +108,11 @@ def fit_with_noise_held(
 ) -> Fit:
     """Fit the parameters alone, the noise model as it is given."""
 
-    def errors(at: Array, sigma: Array) -> Array:
-        return whitened(stretches, space.model(at), gains, sigma)
+    def errors(at: Array) -> Array:
+        return whitened(stretches, space.model(at), gains, UNIT)
 
     prior = Prior(space.prior(), space.deviations())
-    point, sigma = _minimise(errors, start, prior, space.bounds(), evaluations, rounds)
+    point, sigma = minimise(errors, start, prior, space.bounds(), evaluations, rounds)
     return Fit(space, stretches, point, gains, sigma)
 
 
@@ -167,8 +127,8 @@ def fit_prediction(
     """Fit parameters and noise model together by one-step prediction error."""
     size = len(start)
 
-    def errors(at: Array, sigma: Array) -> Array:
-        return whitened(stretches, space.model(at[:size]), at[size:], sigma)
+    def errors(at: Array) -> Array:
+        return whitened(stretches, space.model(at[:size]), at[size:], UNIT)
 
     low, high = space.bounds()
     bounds = (np.concatenate([low, GAIN_LIMITS[0]]), np.concatenate([high, GAIN_LIMITS[1]]))
@@ -177,72 +137,5 @@ def fit_prediction(
         np.concatenate([space.deviations(), np.full(len(gains), PRIOR_DEVIATION)]),
     )
     begin = np.concatenate([start, gains])
-    point, sigma = _minimise(errors, begin, prior, bounds, evaluations, rounds)
+    point, sigma = minimise(errors, begin, prior, bounds, evaluations, rounds)
     return Fit(space, stretches, point[:size], point[size:], sigma)
-
-
-def _minimise(
-    errors: Errors,
-    start: Array,
-    prior: Prior,
-    bounds: tuple[Array, Array],
-    evaluations: int,
-    rounds: int,
-) -> tuple[Array, Array]:
-    """Alternate robust least squares and the scale of the errors; return point and scale."""
-    low, high = bounds
-    margin = 1e-9 * np.maximum(1.0, np.abs(start))
-    point = np.clip(start, low + margin, high - margin)
-    sigma = scale_of(errors(point, np.ones(2)))
-    for _ in range(rounds):
-        point = _least_squares(errors, point, prior, bounds, sigma, evaluations)
-        fresh = scale_of(errors(point, np.ones(2)))
-        settled = bool(np.all(np.abs(fresh / sigma - 1.0) < SETTLED))
-        sigma = fresh
-        if settled:
-            break
-    return point, sigma
-
-
-def _least_squares(
-    errors: Errors,
-    start: Array,
-    prior: Prior,
-    bounds: tuple[Array, Array],
-    sigma: Array,
-    evaluations: int,
-) -> Array:
-    """Minimise robust whitened errors, with a weak pull towards the prior."""
-
-    def cost(at: Array) -> Array:
-        return np.concatenate([errors(at, sigma).ravel(), (at - prior.centre) / prior.deviation])
-
-    def jacobian(at: Array) -> Array:
-        columns = _columns(lambda x: errors(x, sigma), at, errors(at, sigma))
-        stacked = np.stack([column.ravel() for column in columns], axis=1)
-        return np.vstack([stacked, np.diag(1.0 / prior.deviation)])
-
-    result = least_squares(
-        cost,
-        start,
-        jac=jacobian,
-        bounds=bounds,
-        loss='huber',
-        f_scale=HUBER,
-        x_scale='jac',
-        max_nfev=evaluations,
-        ftol=1e-6,
-        xtol=1e-6,
-    )
-    return np.asarray(result.x)
-
-
-def _columns(errors: Callable[[Array], Array], at: Array, base: Array) -> list[Array]:
-    """Return derivatives by forward differences, one column a coordinate, on all cores."""
-
-    def column(index: int) -> Array:
-        moved = at.copy()
-        moved[index] += DIFFERENCE
-        return np.asarray((errors(moved) - base) / DIFFERENCE)
-
-    return each(column, range(len(at)))

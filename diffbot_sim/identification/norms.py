@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from diffbot_sim.identification.result import ErrorNorm
+from diffbot_sim.identification.robust import NORMAL
 from diffbot_sim.records import Array
 
 # Distinct values [m/s, rad/s] closer than this are one, apart by rounding.
@@ -37,7 +38,7 @@ def _white(errors: Array) -> Array:
     is a sample early or late, are left out.
     """
     noise = np.diff(errors, n=2, axis=0) / SECOND
-    limit = 5.0 * 1.4826 * np.median(np.abs(noise), axis=0)
+    limit = 5.0 * NORMAL * np.median(np.abs(noise), axis=0)
     return np.where(np.abs(noise) <= np.maximum(limit, 1e-12), noise, 0.0)
 
 

@@ -8,9 +8,11 @@ from scipy import stats
 
 from diffbot_sim.identification.bases import Basis, again, bases
 from diffbot_sim.identification.evidence import block_gain, sandwich, wald_p
-from diffbot_sim.identification.fitting import GAIN_LIMITS, Fit, each, huber, whitened
+from diffbot_sim.identification.fitting import GAIN_LIMITS, Fit, whitened
+from diffbot_sim.identification.parallel import each
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import Structure
+from diffbot_sim.identification.robust import huber
 from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch
