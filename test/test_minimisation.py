@@ -1,0 +1,47 @@
+"""Robust least squares that settles with the scale of its errors."""
+
+import numpy as np
+import pytest
+
+from diffbot_sim.identification.minimisation import Prior, minimise
+
+FAR = (np.full(2, -9.0), np.full(2, 9.0))
+VAGUE = Prior(np.zeros(2), np.full(2, 1e6))
+NOISE = np.random.default_rng(0).normal(size=(20_000, 2))
+
+
+def valley(at):
+    """Return noise whose scale hardly tells how far the point is from (1, 1), by a bent way."""
+    errors = NOISE.copy()
+    errors[::2, 0] += 0.6 * (at[1] - at[0] ** 2)
+    errors[::2, 1] += 0.03 * (1.0 - at[0])
+    return errors
+
+
+def test_fit_goes_on_to_the_minimum_though_the_scale_has_settled() -> None:
+    start = np.array([-1.2, 1.44])
+    short, _ = minimise(valley, start, VAGUE, FAR, evaluations=3, rounds=60)
+    long, _ = minimise(valley, start, VAGUE, FAR, evaluations=300, rounds=60)
+    assert short == pytest.approx(long, abs=0.2)  # a third of what the noise leaves open
+
+
+def test_no_point_is_asked_for_twice() -> None:
+    asked = []
+
+    def errors(at):
+        asked.append(tuple(at))
+        return valley(at)
+
+    minimise(errors, np.array([-1.2, 1.0]), VAGUE, FAR, evaluations=20, rounds=3)
+    assert len(set(asked)) == len(asked)
+
+
+def test_scale_is_that_of_the_errors_and_events_count_little() -> None:
+    def errors(at):
+        found = 0.1 * NOISE + at
+        found[:200] += 50.0
+        return found
+
+    point, sigma = minimise(errors, np.ones(2), VAGUE, FAR, evaluations=20, rounds=5)
+    assert sigma == pytest.approx([0.1, 0.1], rel=0.2)
+    assert np.abs(point).max() < 0.03
