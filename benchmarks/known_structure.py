@@ -59,7 +59,7 @@ def fitted(run: Run, known: Model) -> Fit:
     stretches = split([run])[0]
     stretches = restarted(calibrate(Space(known, ()), stretches).model, stretches, MAX_STEP)
     space = Space(known, tuple(kind for name, kind in laws().items() if name in FREE))
-    return fit_prediction(space, stretches, space.prior(), FIRST_GAINS, evaluations=10, rounds=8)
+    return fit_prediction(space, stretches, space.prior(), FIRST_GAINS)
 
 
 if __name__ == '__main__':

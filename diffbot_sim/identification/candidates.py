@@ -30,16 +30,13 @@ def approach(screen: Screen, kind: type[Effect], score: Score) -> Fit:
 def complete(near: Fit) -> Fit:
     """Fit to the end what was approached: first with the noise model held, then with all."""
     held = fit_with_noise_held(near.space, near.stretches, near.u, near.gains)
-    return fit_prediction(near.space, near.stretches, held.u, held.gains, evaluations=8, rounds=2)
+    return fit_prediction(near.space, near.stretches, held.u, held.gains)
 
 
 def begun_anew(fit: Fit) -> Fit:
-    """Fit again from the first states that this model finds best: a poorer one misjudged them.
-
-    And to the very end: as the noise model makes up for less, the parameters move on.
-    """
+    """Fit again from the first states that this model finds best: a poorer one misjudged them."""
     stretches = restarted(fit.model, fit.stretches, MAX_STEP)
-    return fit_prediction(fit.space, stretches, fit.u, fit.gains, evaluations=10, rounds=8)
+    return fit_prediction(fit.space, stretches, fit.u, fit.gains)
 
 
 def reduce(fit: Fit, name: str) -> Fit:
@@ -47,4 +44,4 @@ def reduce(fit: Fit, name: str) -> Fit:
     kinds = tuple(kind for kind in fit.space.kinds if kind.name != name)
     space = Space(fit.space.declared, kinds)
     kept = np.delete(fit.u, fit.space.places(name))
-    return fit_prediction(space, fit.stretches, kept, fit.gains, evaluations=10, rounds=2)
+    return fit_prediction(space, fit.stretches, kept, fit.gains)

@@ -18,6 +18,8 @@ from diffbot_sim.records import Array
 FIRST_GAINS = np.array([0.05, 0.005, 0.3, 0.05, 0.005, 0.3])
 GAIN_LIMITS = (np.zeros(6), np.array([0.95, 0.5, 0.999, 0.95, 0.5, 0.999]))
 GAIN_PRIOR = np.array([0.0, 0.0, 0.3, 0.0, 0.0, 0.3])
+# Evaluations in a round, and rounds at most, of fits that go on to the end.
+EVALUATIONS, ROUNDS = 10, 8
 # An error that is as bad as any.
 WORST = 1e9
 # The scale of errors that are told in m/s and rad/s.
@@ -117,14 +119,9 @@ def fit_with_noise_held(
 
 
 def fit_prediction(
-    space: Space,
-    stretches: tuple[Stretch, ...],
-    start: Array,
-    gains: Array,
-    evaluations: int = 20,
-    rounds: int = 3,
+    space: Space, stretches: tuple[Stretch, ...], start: Array, gains: Array
 ) -> Fit:
-    """Fit parameters and noise model together by one-step prediction error."""
+    """Fit parameters and noise model together by one-step prediction error, to the very end."""
     size = len(start)
 
     def errors(at: Array) -> Array:
@@ -137,5 +134,5 @@ def fit_prediction(
         np.concatenate([space.deviations(), np.full(len(gains), PRIOR_DEVIATION)]),
     )
     begin = np.concatenate([start, gains])
-    point, sigma = minimise(errors, begin, prior, bounds, evaluations, rounds)
+    point, sigma = minimise(errors, begin, prior, bounds, EVALUATIONS, ROUNDS)
     return Fit(space, stretches, point[:size], point[size:], sigma)

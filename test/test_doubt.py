@@ -1,0 +1,44 @@
+"""Doubt about an answer, names and silence alike."""
+
+from functools import cache
+
+import pytest
+
+from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
+from diffbot_sim.identification.coordinates import Space
+from diffbot_sim.identification.doubt import doubt
+from diffbot_sim.identification.evidence import Evidence
+from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
+from diffbot_sim.identification.selection import Selection
+from diffbot_sim.identification.stretches import Stretch, split
+from diffbot_sim.identification.trials import CHANCE, SUPPORTED, Trial
+from diffbot_sim.physics import Model
+from diffbot_sim.physics.effects.payload_change import PayloadChange
+
+
+@cache
+def clean() -> tuple[Fit, tuple[Stretch, ...]]:
+    """Return a fit to a robot that lacks nothing, and held-out data."""
+    run = rehearse(Model(), random_forces(1, 40.0, -9.0, 11.0), Surroundings(), 1)
+    fitted, held_out = split([run])
+    space = Space(Model(), ())
+    return fit_prediction(space, fitted, space.prior(), FIRST_GAINS), held_out
+
+
+def answer_after(outcome: str, delta_bic: float):
+    """Return what doubt says when this is how an effect fared that did not enter."""
+    fit, held_out = clean()
+    trial = Trial(PayloadChange, fit, Evidence(delta_bic, 0.0, 0.05, 0.1, 0.2), outcome)
+    return doubt(Selection(fit, fit, (trial,), {}, {}, {}), held_out)
+
+
+def test_refused_effect_that_explains_too_much_for_chance_is_no_silence() -> None:
+    selection, left = answer_after('does not predict held-out data better', 90.0)
+    assert selection.final.space.kinds == ()
+    assert left is not None
+    assert left.description.startswith('something that payload_change explains in part')
+
+
+@pytest.mark.parametrize(('outcome', 'delta_bic'), [(CHANCE, 20.0), (SUPPORTED, 90.0)])
+def test_what_chance_can_do_and_what_entered_raise_no_suspicion(outcome, delta_bic) -> None:
+    assert answer_after(outcome, delta_bic)[1] is None
