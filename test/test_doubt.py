@@ -11,7 +11,7 @@ from diffbot_sim.identification.evidence import Evidence
 from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
 from diffbot_sim.identification.selection import Selection
 from diffbot_sim.identification.stretches import Stretch, split
-from diffbot_sim.identification.trials import CHANCE, SUPPORTED, Trial
+from diffbot_sim.identification.trials import CHANCE, OUTDONE, SUPPORTED, Trial
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.payload_change import PayloadChange
 
@@ -39,6 +39,10 @@ def test_refused_effect_that_explains_too_much_for_chance_is_no_silence() -> Non
     assert left.description.startswith('something that payload_change explains in part')
 
 
-@pytest.mark.parametrize(('outcome', 'delta_bic'), [(CHANCE, 20.0), (SUPPORTED, 90.0)])
-def test_what_chance_can_do_and_what_entered_raise_no_suspicion(outcome, delta_bic) -> None:
+@pytest.mark.parametrize(
+    ('outcome', 'delta_bic'), [(CHANCE, 20.0), (SUPPORTED, 90.0), (OUTDONE, 90.0)]
+)
+def test_what_chance_can_do_and_what_is_told_already_raise_no_suspicion(
+    outcome, delta_bic
+) -> None:
     assert answer_after(outcome, delta_bic)[1] is None

@@ -71,7 +71,7 @@ def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection,
 
 def _suspicion(selection: Selection) -> Structure | None:
     """Return the free form nearest to what a refused effect explains, if that is no chance."""
-    refused = [t for t in selection.trials if t.fit is not None and not t.accepted]
+    refused = (trial for trial in selection.trials if trial.refused)
     most = max(refused, key=lambda t: t.evidence.delta_bic, default=None)
     if most is None or most.evidence.delta_bic < SUSPICIOUS:
         return None

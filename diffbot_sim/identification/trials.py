@@ -48,6 +48,11 @@ class Trial:
         """Whether the evidence was beyond doubt."""
         return self.outcome == SUPPORTED
 
+    @property
+    def refused(self) -> bool:
+        """Whether it was fitted to its end, and the evidence was not beyond doubt."""
+        return self.fit is not None and self.outcome not in (SUPPORTED, OUTDONE)
+
 
 @dataclass(frozen=True)
 class _Approach:
