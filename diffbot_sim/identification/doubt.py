@@ -50,15 +50,14 @@ def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection,
         better = _outdone(selection.without[kind.name], final, (kind,))
         if better is not None:
             return _without(selection, kind.name, describe(better, final), held_out)
-    worths = ((evidence.delta_bic, name) for name, evidence in selection.support.items())
-    worth, weakest = min(worths, default=(inf, ''))
+    worth, weakest = _weakest(selection)
     if len(final.space.kinds) > 1:
         better = _outdone(selection.base, final, final.space.kinds)
         if better is not None:
             return _without(selection, weakest, describe(better, final), held_out)
     left = find_dependence(Screen(final), held_out)
     if left is None:
-        return selection, _suspicion(selection)
+        return _suspicion(selection, held_out)
     for kind in final.space.kinds:
         rest = selection.without[kind.name]
         whole = _free_form_of(rest, final, kind, left)
@@ -69,16 +68,28 @@ def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection,
     return _without(selection, weakest, describe(left, final), held_out)
 
 
-def _suspicion(selection: Selection) -> Structure | None:
-    """Return the free form nearest to what a refused effect explains, if that is no chance."""
+def _suspicion(
+    selection: Selection, held_out: Sequence[Stretch]
+) -> tuple[Selection, Structure | None]:
+    """Doubt silence, and the weakest name, beside a refused effect that is beyond chance."""
     refused = (trial for trial in selection.trials if trial.refused)
     most = max(refused, key=lambda t: t.evidence.delta_bic, default=None)
     if most is None or most.evidence.delta_bic < SUSPICIOUS:
-        return None
+        return selection, None
     final = selection.final
     nearest = describe(dependences(Screen(final))[0], final)
     words = f'something that {most.kind.name} explains in part, though not all along the runs, or'
-    return replace(nearest, description=f'{words} {nearest.description}')
+    left = replace(nearest, description=f'{words} {nearest.description}')
+    worth, weakest = _weakest(selection)
+    if WORTHIER * worth > most.evidence.delta_bic:
+        return selection, left
+    return _without(selection, weakest, left, held_out)
+
+
+def _weakest(selection: Selection) -> tuple[float, str]:
+    """Return the least worth of a name, and which it is; infinite where there is none."""
+    worths = ((evidence.delta_bic, name) for name, evidence in selection.support.items())
+    return min(worths, default=(inf, ''))
 
 
 def _without(
