@@ -19,8 +19,10 @@ from recovery_evidence import evidence
 from recovery_judge import judge
 from recovery_tables import right, tables, told
 
+from diffbot_sim.__main__ import THREADS as LINEAR_ALGEBRA
+
 # Each process has one thread for every library; `identify` has a few of its own.
-THREADS = ('NUMBA_NUM_THREADS', 'OMP_NUM_THREADS', 'OPENBLAS_NUM_THREADS', 'MKL_NUM_THREADS')
+THREADS = ('NUMBA_NUM_THREADS', *LINEAR_ALGEBRA)
 
 
 def main() -> None:

@@ -5,6 +5,7 @@ import shutil
 from argparse import ArgumentParser, Namespace
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from secrets import randbelow
 
@@ -12,6 +13,7 @@ import numpy as np
 
 from diffbot_sim.__main__ import main
 from diffbot_sim.bags import read_run
+from diffbot_sim.bags.topics import NAMES
 from diffbot_sim.commands._processes import Process, free_domain, stopped_at_end
 from diffbot_sim.config import save_model
 from diffbot_sim.errors import DiffbotError
@@ -22,7 +24,6 @@ from diffbot_sim.physics.model import Model
 NOISE = {'linear': 0.004, 'angular': 0.008}  # of the odometry [m/s], [rad/s]
 RATE, SPEED_UP = 50.0, 3.0  # odometry [Hz]; simulation over wall time
 LEARNING, AGAIN = 100.0, 30.0  # lengths of the drives [s]
-RECORDED = ('odom', 'right_wheel/force_cmd', 'left_wheel/force_cmd')  # what `identify` needs
 # The hidden robot's nominal parameters are off the declared ones by up to this share, and the
 # effect has this many typical sizes.
 MISCALIBRATION, SIZES = 0.1, (2.0, 5.0)
@@ -98,8 +99,9 @@ def drive(params: Path, bag: Path, duration: float, seed: int) -> None:
         start('simulator', 'ready', *file, *_set(options))
         start('pi_controller', 'ready', *file)
         recorder = start('recorder', 'recording', '--output', str(bag))
-        for topic in RECORDED:  # nodes may find each other late: then the drive's begin is lost
-            recorder.wait_for(f'hears {topic}')
+        for topic in chain(*NAMES.values()):
+            # Nodes may find each other late: then the drive's begin is lost.
+            recorder.wait_for(f'hears {topic}\n')
         words = _set({'duration': duration, 'seed': seed})
         driver = start('driver', 'driving', '--ros-args', *words)
         driver.wait(10.0 * duration)
