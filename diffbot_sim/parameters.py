@@ -2,6 +2,7 @@
 
 from dataclasses import MISSING, dataclass, field, fields
 from difflib import get_close_matches
+from functools import cache
 from math import inf, isfinite
 from typing import Any
 
@@ -73,6 +74,11 @@ def parameter(
 
 def specs(kind: Any) -> tuple[Spec, ...]:
     """List the parameters of a dataclass (or of an instance) in the order of its fields."""
+    return _declared(kind if isinstance(kind, type) else type(kind))
+
+
+@cache
+def _declared(kind: Any) -> tuple[Spec, ...]:
     return tuple(
         Spec(item.name, None if item.default is MISSING else item.default, **facts)
         for item in fields(kind)

@@ -20,8 +20,8 @@ from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.simulation import (
+    INTEGERS,
     MATRIX,
-    WORK_ROWS,
     Drive,
     advance_held,
     command_at,
@@ -29,8 +29,9 @@ from diffbot_sim.physics.simulation import (
     initial_states,
     initial_vector,
     inputs_of,
+    workspace,
 )
-from diffbot_sim.physics.vector import HEADING, SPEED_LEFT, SPEED_RIGHT, STATE_SIZE
+from diffbot_sim.physics.vector import HEADING, SPEED_LEFT, SPEED_RIGHT
 from diffbot_sim.records import Array
 
 # Longest integration step [s]; fourth order keeps its error far below any odometry's noise.
@@ -74,6 +75,7 @@ def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = N
         stretch.heading,
         np.ascontiguousarray(gains),
         np.zeros((count, 2)) if push is None else np.ascontiguousarray(push),
+        *workspace(),
         out,
     )
     return Prediction(out[:, 0:2], out[:, 2:4], out[:, 4:6])
@@ -97,7 +99,7 @@ def _correct(z: Array, modes: Modes, b: float, v: float, omega: float) -> None:
     types.void(
         *FUNCTION_TYPES,
         *(ARRAY, ARRAY, ARRAY, ARRAY, MATRIX, types.float64),
-        *(ARRAY, MATRIX, ARRAY, ARRAY, MATRIX, MATRIX),
+        *(ARRAY, MATRIX, ARRAY, ARRAY, MATRIX, INTEGERS, MATRIX, MATRIX),
     )
 )
 def _predict(  # type: ignore[no-untyped-def]
@@ -114,17 +116,18 @@ def _predict(  # type: ignore[no-untyped-def]
     heading,
     gains,
     push,
+    modes,
+    work,
     out,
 ) -> None:
     """Fill out: innovation, corrected twist, disturbance."""
     drive, b = Drive(command_time, force, max_step), params[2]
-    modes, work = np.ones(3, np.int64), np.empty((WORK_ROWS, STATE_SIZE))
     current = command_at(drive, -1, times[0])
     initial_modes(laws, params, states, z, modes, inputs_of(drive, current, 0.0, 0.0), times[0])
-    disturbance = np.zeros(2)
+    pushing, turning = 0.0, 0.0
     for k, time in enumerate(times):
         if k > 0:
-            acting = (disturbance[0] + push[k - 1, 0], disturbance[1] + push[k - 1, 1])
+            acting = (pushing + push[k - 1, 0], turning + push[k - 1, 1])
             current = advance_held(
                 laws,
                 settle,
@@ -144,11 +147,11 @@ def _predict(  # type: ignore[no-untyped-def]
             error_omega = twist[k, 1] - (z[SPEED_RIGHT] - z[SPEED_LEFT]) / (2.0 * b)
             out[k, 0], out[k, 1] = error_v, error_omega
             _correct(z, modes, b, gains[0] * error_v, gains[3] * error_omega)
-            disturbance[0] *= gains[2] ** interval
-            disturbance[1] *= gains[5] ** interval
-            disturbance[0] += gains[1] * params[0] / interval * error_v
-            disturbance[1] += gains[4] * params[1] / interval * error_omega
+            pushing *= gains[2] ** interval
+            turning *= gains[5] ** interval
+            pushing += gains[1] * params[0] / interval * error_v
+            turning += gains[4] * params[1] / interval * error_omega
         z[HEADING] = heading[k]
         out[k, 2] = 0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT])
         out[k, 3] = (z[SPEED_RIGHT] - z[SPEED_LEFT]) / (2.0 * b)
-        out[k, 4:6] = disturbance
+        out[k, 4], out[k, 5] = pushing, turning

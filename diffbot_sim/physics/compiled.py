@@ -1,4 +1,8 @@
-"""How this room compiles: small functions into their callers, entries once, kept on disk."""
+"""How this room compiles: small functions into their callers, entries once, kept on disk.
+
+Compiled code allocates nothing: without numba's runtime (NRT), which would count the owners of
+arrays in atomic steps at every call, it takes less than half the time.
+"""
 
 from collections.abc import Callable, Iterable
 from hashlib import sha256
@@ -8,11 +12,12 @@ from typing import Any
 from numba import njit, types
 
 Function = Callable[..., Any]
+_OPTIONS = {'error_model': 'numpy', 'nogil': True, '_nrt': False}
 
 
 def compiled(function: Function) -> Function:
     """Compile a function that only compiled code calls; nothing happens before its first use."""
-    result: Function = njit(error_model='numpy', nogil=True)(function)
+    result: Function = njit(**_OPTIONS)(function)
     return result
 
 
@@ -26,7 +31,7 @@ def entry(signature: Any, key: str = '') -> Callable[[Function], Function]:
 
     def decorate(function: Function) -> Function:
         function.__qualname__ += f'_{_SOURCES}{key}'
-        result: Function = njit(signature, cache=True, nogil=True, error_model='numpy')(function)
+        result: Function = njit(signature, cache=True, **_OPTIONS)(function)
         return result
 
     return decorate
@@ -39,6 +44,10 @@ class Pointer(types.WrapperAddressProtocol):  # type: ignore[misc]  # numba has 
         self._function, self._signature = function, signature  # kept, so that the code is
         found = function.get_compile_result(signature)
         self._address = found.library.get_pointer_to_function(found.fndesc.llvm_cfunc_wrapper_name)
+
+    def __call__(self, *values: Any) -> Any:
+        """Call it as Python does."""
+        return self._function(*values)
 
     def __wrapper_address__(self) -> Any:
         return self._address

@@ -250,19 +250,19 @@ def _break_rest(
     torn_right, torn_left = _torn(
         _rest_range(laws, params, states, at, inputs, now), _allowance(now)
     )
-    trial = np.empty(3, np.int64)
+    resting = modes[YAW]
     for torn_may_stick, stuck in ((False, 1), (False, 0), (True, 1)):
         for right in (1, -1, 0):
             for left in (1, -1, 0):
-                for yaw in (1, -1, 0) if modes[YAW] != FREE else (FREE, FREE, FREE):
-                    trial[:] = (right, left, yaw)
+                for yaw in (1, -1, 0) if resting != FREE else (FREE, FREE, FREE):
                     kept = (right == 0) + (left == 0) + (yaw == 0)
                     sticks = (torn_right and right == 0) or (torn_left and left == 0)
                     if kept != stuck or sticks != torn_may_stick:
                         continue
-                    if _consistent(laws, params, states, at, inputs, trial):
-                        modes[:] = trial
+                    modes[RIGHT], modes[LEFT], modes[YAW] = right, left, yaw
+                    if _consistent(laws, params, states, at, inputs, modes):
                         return True
+    modes[RIGHT], modes[LEFT], modes[YAW] = 0, 0, resting
     return False
 
 

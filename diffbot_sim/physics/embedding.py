@@ -10,7 +10,7 @@ def embedded(model: Model) -> Model:
     """Return a model that moves alike, to the bit, and has every law of the library.
 
     Each set of effects is compiled once; a search over many sets would compile for longer than it
-    simulates. A neutral effect costs a few percent and changes nothing.
+    simulates. All neutral effects together cost less than the robot itself and change nothing.
     """
     present = {effect.name for effect in model.effects}
     absent = [effect for effect in _neutral() if effect.name not in present]

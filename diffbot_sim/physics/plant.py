@@ -6,31 +6,23 @@ from math import inf
 import numpy as np
 from numba import types
 
-from diffbot_sim.physics.compiled import Pointer, entry
-from diffbot_sim.physics.composition import (
-    ARRAY,
-    FUNCTION_TYPES,
-    LAWS_SIGNATURE,
-    SETTLE_SIGNATURE,
-    compose,
-)
+from diffbot_sim.physics.compiled import entry
+from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
 from diffbot_sim.physics.instant import Inputs
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import delay_of, moments_of
 from diffbot_sim.physics.simulation import (
+    INTEGERS,
     MATRIX,
     OUTPUT_SIZE,
-    WORK_ROWS,
     initial_modes,
     initial_vector,
     observe,
+    workspace,
 )
 from diffbot_sim.physics.stages import Traction
 from diffbot_sim.physics.state import State
 from diffbot_sim.physics.stepper import advance
-from diffbot_sim.physics.vector import STATE_SIZE
-
-INTEGERS = types.Array(types.int64, 1, 'C')
 
 
 class Plant:
@@ -137,16 +129,14 @@ class Plant:
 
     def _install(self, model: Model) -> None:
         self._model = model
-        laws, settle = compose(tuple(type(effect) for effect in model.effects))
-        self._functions = Pointer(laws, LAWS_SIGNATURE), Pointer(settle, SETTLE_SIGNATURE)
+        self._functions = compose(tuple(type(effect) for effect in model.effects))
         self._params = model.pack()
         self._delay, self._moments = delay_of(model), moments_of(model)
         self._coming: deque[tuple[float, tuple[float, float]]] = deque()
         held = Traction(*self._force)
         self._states = np.array([s for e in model.effects for s in e.initial_state(held)])
-        self._modes = np.zeros(3, np.int64)
+        self._modes, self._work = workspace()
         self._row = np.empty(OUTPUT_SIZE)
-        self._work = np.empty((WORK_ROWS, STATE_SIZE))
         _begin(*self._arguments())
         self._run(0.0)
 

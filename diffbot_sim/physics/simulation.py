@@ -20,6 +20,7 @@ from diffbot_sim.physics.vector import STATE_SIZE, evaluate, motion_at
 from diffbot_sim.records import Array, Commands, Trajectory
 
 MATRIX = types.Array(types.float64, 2, 'C')
+INTEGERS = types.Array(types.int64, 1, 'C')
 WORK_ROWS = 2
 # Columns of the table that drive() fills after the state z: twist, traction, friction.
 OUTPUT_SIZE = STATE_SIZE + 6
@@ -51,6 +52,7 @@ def simulate(
         np.ascontiguousarray(commands.force),
         max_step,
         np.ascontiguousarray(times),
+        *workspace(),
         out,
     )
     return Trajectory(
@@ -62,6 +64,11 @@ def simulate(
         traction=out[:, 9:11],
         friction=out[:, 11:13],
     )
+
+
+def workspace() -> tuple[Modes, Array]:
+    """Return the modes of the contacts, and rows that the stepper works in."""
+    return np.ones(3, np.int64), np.empty((WORK_ROWS, STATE_SIZE))
 
 
 def initial_vector(model: Model, start: State) -> Array:
@@ -188,21 +195,24 @@ def observe(
     at = motion_at(params, z, time, 0.0)
     reaction = contact.reaction_at(laws, params, states, at, inputs, modes)
     now = instant_at(laws, params, states, at, inputs, modes)
-    row[:STATE_SIZE] = z
+    for i in range(STATE_SIZE):
+        row[i] = z[i]
     row[7], row[8] = at.v, at.omega
     row[9], row[10] = now.traction_right, now.traction_left
     row[11], row[12] = reaction.right, reaction.left
 
 
 @entry(
-    types.void(*FUNCTION_TYPES, ARRAY, ARRAY, ARRAY, ARRAY, MATRIX, types.float64, ARRAY, MATRIX)
+    types.void(
+        *FUNCTION_TYPES,
+        *(ARRAY, ARRAY, ARRAY, ARRAY, MATRIX, types.float64, ARRAY, INTEGERS, MATRIX, MATRIX),
+    )
 )
 def _simulate(  # type: ignore[no-untyped-def]
-    laws, settle, params, states, z, command_time, force, max_step, times, out
+    laws, settle, params, states, z, command_time, force, max_step, times, modes, work, out
 ) -> None:
     """Simulate from times[0] and fill a row of output at each stamp."""
     drive = Drive(command_time, force, max_step)
-    modes, work = np.ones(3, np.int64), np.empty((WORK_ROWS, STATE_SIZE))
     current, push = command_at(drive, -1, times[0]), (0.0, 0.0)
     initial_modes(laws, params, states, z, modes, inputs_of(drive, current, 0.0, 0.0), times[0])
     for k, time in enumerate(times):

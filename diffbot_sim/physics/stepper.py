@@ -55,7 +55,8 @@ def advance(
         )
         at = motion_at(params, z, time + done, taken)
         settle(params, states, at, inputs)
-        z[:] = work[0]
+        for i in range(STATE_SIZE):
+            z[i] = work[0, i]
         if event:
             contact.arrive(z, modes)
             events += 1
@@ -241,7 +242,8 @@ def _runge_kutta(
     Return whether h is short enough for the method to be stable.
     """
     half, probe = 0.5 * h, work[0]
-    probe[:] = z
+    for i in range(STATE_SIZE):
+        probe[i] = z[i]
     k1 = _derivative(laws, params, states, probe, modes, inputs, time, 0.0)
     for i in range(STATE_SIZE):
         work[1, i] = k1[i]

@@ -12,6 +12,8 @@ from diffbot_sim.physics.stages import Law, Motion, Stage, scaled
 @compiled
 def drift(at: Motion, law: Law, dry: float, viscous: float, time_constant: float) -> Law:
     """Approach the changed friction; before the start nothing has changed."""
+    if dry == viscous == 0.0:
+        return law
     progress = 1.0 - exp(-max(at.time, 0.0) / time_constant)
     return scaled(law, 1.0 + dry * progress, 1.0 + viscous * progress)
 

@@ -1,6 +1,7 @@
 """A drive that gives its full force at low speed only."""
 
 from dataclasses import dataclass
+from math import sqrt
 
 from diffbot_sim.parameters import parameter
 from diffbot_sim.physics.compiled import compiled
@@ -9,18 +10,17 @@ from diffbot_sim.physics.stages import Motion, Stage, Traction
 
 # Shares of the largest power at which the limit may lie.
 SHARES = (0.85, 0.6, 0.35)
-# At a power just of the limit 1 - 2^(-1/8), 8 %, is missing.
-SHARPNESS = 8
 
 
 @compiled
 def weakened(force: float, speed: float, limit: float) -> float:
     """Return a force [N] that does hardly more work than the limit [W]; braking is not limited.
 
-    The bend is rounded: one that is sharp in speed would cost the integrator its order.
+    The bend is rounded, since one that is sharp in speed would cost the integrator its order: at
+    a power just of the limit 1 - 2^(-1/8), 8 %, is missing.
     """
     asked = max(force * speed, 0.0) / limit
-    return float(force / (1.0 + asked**SHARPNESS) ** (1.0 / SHARPNESS))
+    return force / sqrt(sqrt(sqrt(1.0 + asked**8)))
 
 
 @compiled

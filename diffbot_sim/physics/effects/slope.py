@@ -14,6 +14,8 @@ STANDARD_GRAVITY = 9.80665
 @compiled
 def gravity(at: Motion, load: Load, grade_x: float, grade_y: float) -> Load:
     """Turn the world's downhill pull into the robot's axes; it acts on mass, whatever that is."""
+    if grade_x == grade_y == 0.0:
+        return load
     c, s = cos(at.heading), sin(at.heading)
     return Load(
         load.force,

@@ -20,6 +20,8 @@ def ripple(
     left_sin: float,
 ) -> Traction:
     """Add to each wheel the force that belongs to its angle; it holds still while stuck."""
+    if right_cos == right_sin == left_cos == left_sin == 0.0:
+        return traction
     right, left = order * at.angle_right, order * at.angle_left
     return Traction(
         traction.right + right_cos * cos(right) + right_sin * sin(right),
