@@ -3,7 +3,7 @@
 import numpy as np
 
 from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.uncertainty import estimates_at
+from diffbot_sim.identification.uncertainty import CHANCE, estimates_at, farthest
 from diffbot_sim.physics import Model
 
 SPACE = Space(Model(), ())
@@ -20,3 +20,14 @@ def test_parameter_that_a_bound_stopped_is_marked_and_no_other() -> None:
 def test_interval_of_a_mass_follows_from_its_logarithm() -> None:
     mass = estimates_at(SPACE, SPACE.prior(), 1e-4 * np.eye(len(NAMES)))['mass']
     np.testing.assert_allclose(mass.high - mass.value, 10.0 * 0.01 * 2.02, rtol=0.01)
+
+
+def test_interval_reaches_across_a_hollow_of_the_likelihood() -> None:
+    def rise(value: float) -> float:
+        return {True: 2.0 * CHANCE, False: 0.0}[0.3 < value < 1.0] + 100.0 * (value > 2.0)
+
+    np.testing.assert_allclose(farthest(rise, 0.0, 50.0), 2.0, rtol=0.02)
+
+
+def test_interval_ends_at_a_bound_where_nothing_speaks_against_it() -> None:
+    assert farthest(lambda value: 0.0, 1.0, -3.0) == -3.0

@@ -9,8 +9,10 @@ from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.bases import Basis
 from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, predictions
+from diffbot_sim.identification.forms import PAST
 from diffbot_sim.identification.stretches import whole
-from diffbot_sim.identification.variables import PAST, VARIABLES, View
+from diffbot_sim.identification.variables import VARIABLES
+from diffbot_sim.identification.views import View
 from diffbot_sim.physics import Model
 
 
@@ -23,12 +25,18 @@ def view() -> View:
     return View(fit, stretch, predictions(fit, [stretch])[0])
 
 
-@pytest.mark.parametrize('name', ['v', 'omega', 'time', 'cornering', 'wheel_force', 'place_x'])
+@pytest.mark.parametrize(
+    'name', ['v', 'omega', 'time', 'cornering', 'wheel_force', 'place_x', 'hill_y']
+)
 def test_hats_add_up_to_the_weight(view: View, name: str) -> None:
     form = VARIABLES[name].form
     (knots,) = form.grids([view])
     total = form.columns(view, knots).sum(axis=1)
-    weight = np.sign(view.wheel_speed) if name == 'place_x' else 1.0
+    weights = {
+        'place_x': np.sign(view.wheel_speed),
+        'hill_y': np.sin(view.stretch.heading)[:, None],
+    }
+    weight = weights.get(name, np.ones(1))
     np.testing.assert_allclose(total, np.broadcast_to(weight, total.shape), atol=1e-12)
 
 

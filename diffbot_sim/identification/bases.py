@@ -7,7 +7,8 @@ import numpy as np
 
 from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.stretches import Stretch
-from diffbot_sim.identification.variables import VARIABLES, View, views
+from diffbot_sim.identification.variables import VARIABLES
+from diffbot_sim.identification.views import View, views
 from diffbot_sim.records import Array
 
 # Unit of the amounts: this share of the largest command.

@@ -13,7 +13,7 @@ from diffbot_sim.identification.fitting import Fit, whitened
 from diffbot_sim.identification.parallel import each
 from diffbot_sim.identification.periodicity import wheel_orders
 from diffbot_sim.identification.robust import influence
-from diffbot_sim.identification.variables import views
+from diffbot_sim.identification.views import views
 from diffbot_sim.physics.effects import Effect, Excitation
 from diffbot_sim.records import Array
 

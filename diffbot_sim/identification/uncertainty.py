@@ -1,5 +1,6 @@
-"""Intervals: covariance of the fit over blocks of the run, carried over to parameters."""
+"""Intervals: from fits that lack a block of the run each; of moments and periods by profiles."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -7,7 +8,7 @@ from scipy import stats
 
 from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.evidence import BLOCKS, jackknife
-from diffbot_sim.identification.fitting import Fit
+from diffbot_sim.identification.fitting import GAIN_LIMITS, Fit
 from diffbot_sim.identification.result import Estimate
 from diffbot_sim.records import Array
 
@@ -15,36 +16,68 @@ LEVEL = 0.95
 STEP = 1e-4
 QUANTILE = float(stats.t.ppf(0.5 + LEVEL / 2, BLOCKS - 1))
 # The first step of a search for where an interval ends, and how it grows.
-FIRST_STEP, GROWTH = 1e-4, 1.5
+FIRST_STEP, GROWTH = 1e-4, 1.4
+# What chance allows the deviance to rise by; the search ends at so many times that.
+CHANCE, BEYOND = QUANTILE**2, 4.0
+HALVINGS = 5
 # Coordinates are of order one; fits end a little inside their bounds.
 NEAR_BOUND = 1e-3
 
 
 def estimates(fit: Fit) -> dict[str, Estimate]:
     """Return every fitted parameter by its name, with its 95 % interval."""
-    spread = jackknife(fit)
+    found = estimates_at(fit.space, fit.u, jackknife(fit))
     for index in fit.space.shapes:
-        spread[index, index] = max(spread[index, index], (_reach(fit, index) / QUANTILE) ** 2)
-    return estimates_at(fit.space, fit.u, spread)
+        coordinate = fit.space.coordinates[index]
+        profile, best = _Profile(fit, index), float(fit.u[index])
+        ends = (farthest(profile.rise, best, bound[index]) for bound in fit.space.bounds())
+        low, high = sorted(map(coordinate.value, ends))
+        found[coordinate.name] = replace(found[coordinate.name], low=low, high=high)
+    return found
 
 
-def _reach(fit: Fit, index: int) -> float:
-    """Return how far a coordinate may move until the likelihood falls by what chance allows.
+def farthest(rise: Callable[[float], float], best: float, bound: float) -> float:
+    """Return the farthest value that chance allows on the way from the best one to a bound.
 
-    A moment has no slope to speak of: the error is a staircase in it, finer than its interval.
+    rise: by how much the deviance is higher at a value than at the best one. A moment or a period
+    has no slope to speak of, since the error is a staircase in it, with hollows; so the search
+    goes on beyond the first step that is too high.
     """
-    base, bounds = fit.deviance(fit.sigma), [bound[index] for bound in fit.space.bounds()]
-    reaches = []
-    for side in (-1.0, 1.0):
-        step = FIRST_STEP
-        while bounds[0] < fit.u[index] + side * step < bounds[1]:
-            moved = fit.u.copy()
-            moved[index] += side * step
-            if replace(fit, u=moved).deviance(fit.sigma) > base + QUANTILE**2:
-                break
-            step *= GROWTH
-        reaches.append(step)
-    return float(np.mean(reaches))
+    way, step, values, rises = abs(bound - best), FIRST_STEP, [best], [0.0]
+    while rises[-1] < BEYOND * CHANCE and step < GROWTH * way:
+        values.append(best + float(np.copysign(min(step, way), bound - best)))
+        rises.append(rise(values[-1]))
+        step *= GROWTH
+    last = max(index for index, higher in enumerate(rises) if higher < CHANCE)
+    within, beyond = values[last], values[min(last + 1, len(values) - 1)]
+    for _ in range(HALVINGS):
+        middle = 0.5 * (within + beyond)
+        if rise(middle) < CHANCE:
+            within = middle
+        else:
+            beyond = middle
+    return within
+
+
+class _Profile:
+    """The deviance of a fit along one coordinate, while all others adapt to first order."""
+
+    def __init__(self, fit: Fit, index: int) -> None:
+        self._fit, self._index = fit, index
+        self._others = np.delete(fit.jacobian, index, axis=-1).reshape(fit.whitened.size, -1)
+
+    def rise(self, value: float) -> float:
+        """Return by how much the deviance is higher than at the fit."""
+        fit = self._fit
+        moved = replace(fit, u=np.where(np.arange(len(fit.u)) == self._index, value, fit.u))
+        change = (moved.whitened - fit.whitened).ravel()
+        shift = np.linalg.lstsq(self._others, -change, rcond=1e-8)[0]
+        shift = np.insert(shift, self._index, 0.0)
+        u = np.clip(moved.u + shift[: len(fit.u)], *fit.space.bounds())
+        gains = np.clip(fit.gains + shift[len(fit.u) :], *GAIN_LIMITS)
+        adapted = replace(moved, u=u, gains=gains)
+        least = min(moved.deviance(fit.sigma), adapted.deviance(fit.sigma))
+        return least - fit.deviance(fit.sigma)
 
 
 def estimates_at(space: Space, u: Array, spread: Array) -> dict[str, Estimate]:

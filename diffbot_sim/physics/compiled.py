@@ -37,11 +37,12 @@ def entry(signature: Any, key: str = '') -> Callable[[Function], Function]:
     return decorate
 
 
-class Pointer(types.WrapperAddressProtocol):  # type: ignore[misc]  # numba has no types
+class Pointer:
     """A compiled function to hand to an entry: numba looks up a plain one at every call."""
 
     def __init__(self, function: Any, signature: Any) -> None:
-        self._function, self._signature = function, signature  # kept, so that the code is
+        self._function = function  # kept, so that the code is
+        self._numba_type_ = types.FunctionType(signature)
         found = function.get_compile_result(signature)
         self._address = found.library.get_pointer_to_function(found.fndesc.llvm_cfunc_wrapper_name)
 
@@ -51,10 +52,6 @@ class Pointer(types.WrapperAddressProtocol):  # type: ignore[misc]  # numba has 
 
     def __wrapper_address__(self) -> Any:
         return self._address
-
-    def signature(self) -> Any:
-        """Return what it takes and gives."""
-        return self._signature
 
 
 def digest_of(names: Iterable[str], files: Iterable[Path]) -> str:

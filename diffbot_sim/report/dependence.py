@@ -65,6 +65,8 @@ STRUCTURE_LABELS = {
     'past_force': 'age of the command [s]',
     'force_over_time': 'time [s]',
     'friction_over_time': 'time [s]',
+    'hill_x': 'x [m]',
+    'hill_y': 'y [m]',
     'place_x': 'x [m]',
     'place_y': 'y [m]',
 }

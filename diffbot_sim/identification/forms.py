@@ -1,0 +1,138 @@
+"""Forms in which a variable is looked at, whatever the law.
+
+Each form turns one stretch into columns: how much each function of the variable is there at
+every sample, shape (k, q, 1) for the body or (k, q, 2) for the right and the left wheel.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import ClassVar
+
+import numpy as np
+
+from diffbot_sim.identification.fitting import Fit
+from diffbot_sim.identification.views import View
+from diffbot_sim.records import Array
+
+KNOTS, FINE_KNOTS, HARMONICS = 6, 20, 2
+# Edges of the spans in which the past of a command is averaged [s].
+PAST = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
+
+# What a variable is at every sample, shape (k,) or (k, 2).
+Of = Callable[[View], Array]
+
+
+@dataclass(frozen=True)
+class Piecewise:
+    """Piecewise linear in a variable, in proportion to weights; knots lie at its quantiles."""
+
+    of: Of
+    weights: Of = lambda view: np.ones(1)
+    count: int = KNOTS
+    looked_at: ClassVar[int] = 1
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return distinct knots; none where the drive does not vary this."""
+        values = np.concatenate([self.of(view).ravel() for view in views])
+        knots = np.unique(np.quantile(values, np.linspace(0.0, 1.0, self.count)))
+        return [knots] if len(knots) >= 3 and knots[-1] - knots[0] > 1e-6 else []
+
+    def columns(self, view: View, knots: Array) -> Array:
+        """Evaluate hats along a stretch."""
+        return _hats(self.of(view), knots, self.weights(view))
+
+    def curve(self, knots: Array) -> tuple[Array, Array]:
+        """Return points of the variable and all functions there."""
+        return knots, np.eye(len(knots))
+
+
+@dataclass(frozen=True)
+class TwoSided:
+    """Piecewise linear on both sides of zero, where it may jump; nothing at zero itself."""
+
+    of: Of
+    count: int = KNOTS
+    looked_at: ClassVar[int] = 1
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return distinct knots of the size, the same for both sides."""
+        return Piecewise(lambda view: np.abs(self.of(view)), count=self.count).grids(views)
+
+    def columns(self, view: View, knots: Array) -> Array:
+        """Evaluate hats along a stretch, the negative side first."""
+        values = self.of(view)
+        sides = [
+            _hats(np.abs(values), knots, np.maximum(side * np.sign(values), 0.0))
+            for side in (-1.0, 1.0)
+        ]
+        return np.concatenate([sides[0][:, ::-1], sides[1]], axis=1)
+
+    def curve(self, knots: Array) -> tuple[Array, Array]:
+        """Return points from the negative end to the positive one, and all functions there."""
+        return np.concatenate([-knots[::-1], knots]), np.eye(2 * len(knots))
+
+
+@dataclass(frozen=True)
+class Periodic:
+    """Waves in an angle: of the heading, of a wheel's turn times an order, of time.
+
+    rates: by which the angle is multiplied; looked_at: how many rates they were chosen among.
+    """
+
+    of: Of
+    rates: Callable[[Fit], Sequence[float]] = lambda fit: (1.0,)
+    harmonics: int = HARMONICS
+    looked_at: int = 1
+    points: int = 25
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return the rates to be tried, each a grid of one."""
+        return [np.array([rate]) for rate in self.rates(views[0].fit)]
+
+    def columns(self, view: View, rate: Array) -> Array:
+        """Evaluate waves along a stretch, those of each wheel on their own."""
+        angle = rate[0] * self.of(view).reshape(len(view.stretch.time), -1)
+        waves = self._waves(angle)
+        apart = [waves * only for only in np.eye(angle.shape[1])[:, None]]
+        return np.concatenate(apart, axis=1)
+
+    def curve(self, rate: Array) -> tuple[Array, Array]:
+        """Return angles of one turn, and the functions of the body or the right wheel there."""
+        angle = np.linspace(-np.pi, np.pi, self.points)
+        return angle, self._waves(angle[:, None])[..., 0]
+
+    def _waves(self, angle: Array) -> Array:
+        turns = [h * angle for h in range(1, self.harmonics + 1)]
+        return np.stack([wave(turn) for turn in turns for wave in (np.cos, np.sin)], axis=1)
+
+
+@dataclass(frozen=True)
+class Past:
+    """Every wheel's command in spans of the past: any linear law between command and force."""
+
+    looked_at: ClassVar[int] = 1
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return the edges of the spans [s]."""
+        del views
+        return [PAST]
+
+    def columns(self, view: View, edges: Array) -> Array:
+        """Return mean commands of each span, over the largest command."""
+        most = max(float(np.abs(view.stretch.run.commands.force).max()), 1e-9)
+        spans = [view.past_force(*span) for span in pairwise(edges)]
+        return np.stack(spans, axis=1) / most
+
+    def curve(self, edges: Array) -> tuple[Array, Array]:
+        """Return the middles of the spans and the functions there."""
+        return 0.5 * (edges[1:] + edges[:-1]), np.eye(len(edges) - 1)
+
+
+Form = Piecewise | TwoSided | Periodic | Past
+
+
+def _hats(values: Array, knots: Array, weights: Array) -> Array:
+    """Return weighted hat functions, shape (k, q, 1 or 2)."""
+    hats = [weights * np.interp(values, knots, hat) for hat in np.eye(len(knots))]
+    return np.stack([hat.reshape(len(hat), -1) for hat in hats], axis=1)
