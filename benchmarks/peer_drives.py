@@ -34,12 +34,16 @@ def closed_loop(make: Make, seed: int, duration: float, rate: float) -> Driver:
         v, omega = random.uniform(-1.0, 1.0, 2) * [make.fastest, make.fastest_turn]
         return np.array(_wheels(random, v, make.plant.half * omega))
 
-    table = _held(seed, duration, rate, goal)
+    return following(make, _held(seed, duration, rate, goal), rate)
+
+
+def following(make: Make, goals: Array, rate: float) -> Driver:
+    """Return a PI law that follows wheel speeds [m/s], one pair a command, shape (k, 2)."""
     kp = 0.5 * make.plant.mass / RISE
     ki, total = kp / (2.0 * RISE), np.zeros(2)
 
     def drive(k: int, measured: Array) -> Array:
-        error = table[k] - measured
+        error = goals[k] - measured
         wanted = kp * error + ki * total
         total[abs(wanted) < make.push] += (error / rate)[abs(wanted) < make.push]
         return np.asarray(np.clip(wanted, -make.push, make.push))

@@ -7,6 +7,7 @@ from typing import Any
 from zlib import crc32
 
 from peer_effects import EFFECTS, FOREIGN
+from peer_manoeuvres import MANOEUVRES
 from peer_robots import MAKES
 
 # What is written down of a case that was judged.
@@ -20,7 +21,10 @@ MULTIPLES = ('0.25×', '0.5×', '1×', '2×', '4×', '8×')
 
 @dataclass(frozen=True)
 class Case:
-    """A robot with some effects of a size on a floor; removed: the library lacks them."""
+    """A robot with some effects of a size on a floor.
+
+    removed: the library lacks them; drive: one of MANOEUVRES, or none: random drives take turns.
+    """
 
     family: str
     effects: tuple[str, ...]
@@ -29,12 +33,14 @@ class Case:
     floor: str
     seed: int
     removed: bool = False
+    drive: str = ''
 
     @property
     def name(self) -> str:
         """What tells it from all other cases."""
         effects = '+'.join(self.effects) or 'none'
-        return f'{self.family} {effects} {self.size} {self.make} {self.floor} {self.seed}'
+        told = f'{self.family} {effects} {self.size} {self.make} {self.floor} {self.seed}'
+        return f'{told} {self.drive}'.rstrip()
 
 
 def _clean(seed: int) -> Iterator[Case]:
@@ -67,6 +73,13 @@ def _sizes(seed: int) -> Iterator[Case]:
         yield Case('sizes', (name,), size, _make(seed), floor, seed)
 
 
+def _drives(seed: int) -> Iterator[Case]:
+    for drive, effects in product(MANOEUVRES, [(), *((name,) for name in EFFECTS)]):
+        yield Case('drives', effects, 'typical', 'medium', 'smooth', seed, drive=drive)
+    for drive, effects in product(('stairs', 'keyboard'), [(), *((name,) for name in EFFECTS)]):
+        yield Case('drives', effects, 'typical', 'large', 'rough', seed, drive=drive)
+
+
 FAMILIES: dict[str, Callable[[int], Iterator[Case]]] = {
     'clean': _clean,
     'single': _single,
@@ -74,6 +87,7 @@ FAMILIES: dict[str, Callable[[int], Iterator[Case]]] = {
     'removed': _removed,
     'foreign': _foreign,
     'sizes': _sizes,
+    'drives': _drives,
 }
 
 

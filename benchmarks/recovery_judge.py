@@ -6,6 +6,7 @@ from time import perf_counter
 import numpy as np
 from peer_drives import DRIVES
 from peer_effects import with_effect
+from peer_manoeuvres import MANOEUVRES
 from peer_plant import Plant
 from peer_recording import Recording, record, repeat
 from peer_robots import MAKES, declared
@@ -45,9 +46,9 @@ def planted_in(case: Case) -> tuple[Plant, dict[str, float]]:
 
 
 def recorded(case: Case, plant: Plant) -> Run:
-    """Drive a case's robot. Kinds of drive, command rate and pose take turns with the seed."""
+    """Drive a case's robot. Random drives, command rate and pose take turns with the seed."""
     make, seed = MAKES[case.make], case.seed
-    drive = tuple(DRIVES.values())[seed % 2]
+    drive = MANOEUVRES[case.drive] if case.drive else tuple(DRIVES.values())[seed % 2]
     how = Recording(
         rate=(50.0, 100.0)[seed // 2 % 2],
         roughness=make.roughness * (case.floor == 'rough'),

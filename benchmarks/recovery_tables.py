@@ -58,6 +58,7 @@ def tables(rows: Sequence[Row]) -> str:
             'Effect taken out of the library', _of(rows, 'removed'), ('effects', 'floor'), NAMELESS
         ),
         _section('Effect of no vocabulary', _of(rows, 'foreign'), ('effects', 'floor'), NAMELESS),
+        _section('Other drives', _of(rows, 'drives'), ('drive', 'make', 'floor'), DRIVEN),
         _section('Detection over size', _of(rows, 'sizes'), ('effects', 'size', 'floor'), SINGLE),
         coverage(rows),
     ]
@@ -95,6 +96,13 @@ PAIRS: dict[str, Column] = {
     'both found': _share(lambda row: set(row['effects']) <= set(row['found'])),
     'exact': _share(exact),
     **RATIOS,
+}
+DRIVEN: dict[str, Column] = {
+    'right and alone': _share(exact),
+    'among alternatives': _share(lambda row: reported(row) and not exact(row)),
+    'wrong name': _share(lambda row: bool(row['found']) and not reported(row)),
+    'said nothing': _share(lambda row: row['verdict'] == 'nothing_missing' and not exact(row)),
+    'unexplained': _share(lambda row: row['verdict'] == 'unexplained'),
 }
 NAMELESS: dict[str, Column] = {
     'unexplained': _share(lambda row: row['verdict'] == 'unexplained'),

@@ -1,5 +1,6 @@
 """A differential drive in MuJoCo: a plant whose physics is not ours, to be identified."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import mujoco
@@ -57,13 +58,17 @@ def drive(
     noise: tuple[float, float] = (0.0, 0.0),
     seed: int = 0,
     name: str = 'mujoco',
+    change: Callable[[mujoco.MjSpec], None] = lambda spec: None,
 ) -> Run:
     """Drive with wheel forces and measure at 50 Hz; the pose is true.
 
     commands: changes at whole multiples of BEAT, the first at 0.
     noise: standard deviations of the measured twist [m/s, rad/s].
+    change: alters what the rig's description says.
     """
-    model = mujoco.MjModel.from_xml_string(mjcf(rig))
+    spec = mujoco.MjSpec.from_string(mjcf(rig))
+    change(spec)
+    model = spec.compile()
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     time = np.arange(round(commands.time[-1] / BEAT) + 1) * BEAT

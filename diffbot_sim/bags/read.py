@@ -8,6 +8,7 @@ import numpy as np
 
 from diffbot_sim.bags.messages import yaw
 from diffbot_sim.bags.series import NANOSECONDS, Ordered, Series, Stamps, held, ordered
+from diffbot_sim.bags.standing import turning
 from diffbot_sim.bags.storage import read_series
 from diffbot_sim.bags.topics import Topics
 from diffbot_sim.errors import BagError
@@ -60,7 +61,8 @@ def _recorded(name: str, series: Mapping[str, Series]) -> RecordedRun:
     start = int(min(stamps[0], odom.stamp[0]))
     force = np.column_stack([held(right, stamps), held(left, stamps)])
     run = Run(name, Commands(_seconds(stamps, start), force), _odometry(odom, start))
-    return RecordedRun(run, start, tuple(_notes(name, series, usable, by_header)))
+    notes = [*_notes(name, series, usable, by_header), *_of_standing(run)]
+    return RecordedRun(run, start, tuple(notes))
 
 
 def _odometry(odom: Ordered, start: int) -> Odometry:
@@ -98,6 +100,13 @@ def _notes(
     if not by_header:
         notes.append(f'{name}: not all messages are stamped; used the times of receipt')
     return [*notes, *(f'{name}: {hole}' for hole in _holes(usable))]
+
+
+def _of_standing(run: Run) -> list[str]:
+    rate = turning(run)
+    told = f'{run.name}: odometry turns by {rate:.4f} rad/s while the robot stands'
+    advice = 'take the bias of its gyro off before you identify, or it may pass for an effect'
+    return [f'{told}; {advice}'] if rate else []
 
 
 def _holes(usable: Mapping[str, Ordered]) -> list[str]:
