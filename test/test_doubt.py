@@ -11,6 +11,7 @@ from diffbot_sim.identification.evidence import Evidence
 from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
 from diffbot_sim.identification.selection import Selection
 from diffbot_sim.identification.stretches import Stretch, split
+from diffbot_sim.identification.structure import lasting
 from diffbot_sim.identification.trials import CHANCE, OUTDONE, SUPPORTED, Trial
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.payload_change import PayloadChange
@@ -46,3 +47,17 @@ def test_what_chance_can_do_and_what_is_told_already_raise_no_suspicion(
     outcome, delta_bic
 ) -> None:
     assert answer_after(outcome, delta_bic)[1] is None
+
+
+@pytest.mark.parametrize(
+    ('p_block', 'elsewhere', 'lasts'),
+    [(0.009, 0.04, True), (0.012, 1e-5, True), (0.0, 0.04, True), (0.02, 0.04, False)],
+)
+def test_doubt_on_one_side_asks_for_certainty_on_the_other(
+    p_block: float, elsewhere: float, lasts: bool
+) -> None:
+    assert lasting(p_block, elsewhere) is lasts
+
+
+def test_what_no_other_data_show_is_passing_however_sure_it_seems() -> None:
+    assert not lasting(1e-12, 0.06)

@@ -21,6 +21,10 @@ from diffbot_sim.records import Array
 
 # As strict as the entry of an effect: chance over all dependences tried, disturbances, held out.
 LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_LEVEL = 1e-3, 1e-2, 0.05
+# Of the last two neither may be above this, and together they may not be above what they are at
+# their levels: where one is beyond all doubt, the other need not be so strict.
+EITHER_LEVEL = 0.05
+BOTH_LEVEL = float(stats.combine_pvalues([BLOCK_LEVEL, HELD_OUT_LEVEL]).pvalue)
 # How many of the dependences are put to the test, and the shares of them that are tried.
 FOLLOWED, SHARES = 4, (1.0, 0.5, 0.25, 0.1)
 # Parts of the runs, and into how many groups of parts they are dealt in turn.
@@ -75,12 +79,24 @@ def find_dependence(screen: Screen, held_out: Sequence[Stretch]) -> Dependence |
     for first_order in found[:FOLLOWED]:
         dependence = realised(screen.fit, first_order)
         beyond_chance = dependence.p_value * len(found) < LIKELIHOOD_LEVEL
-        if not beyond_chance or dependence.p_block > BLOCK_LEVEL:
+        if not beyond_chance or dependence.p_block > EITHER_LEVEL:
             continue
-        seen_elsewhere = _held_out_chance(screen.fit, dependence, held_out)
-        if 2.0 * min(seen_elsewhere, dependence.p_folds) < HELD_OUT_LEVEL:
+        held_out_chance = _held_out_chance(screen.fit, dependence, held_out)
+        elsewhere = 2.0 * min(held_out_chance, dependence.p_folds)
+        if lasting(dependence.p_block, elsewhere):
             return dependence
     return None
+
+
+def lasting(p_block: float, elsewhere: float) -> bool:
+    """Say whether something is neither a passing disturbance nor a fit to one: Fisher's method.
+
+    elsewhere: the chance of what it predicts of data that it was not fitted to.
+    """
+    if max(p_block, elsewhere) > EITHER_LEVEL:
+        return False
+    both = np.maximum([p_block, elsewhere], np.finfo(float).tiny)
+    return bool(stats.combine_pvalues(both).pvalue <= BOTH_LEVEL)
 
 
 def explained_by(screen: Screen, basis: Basis) -> Dependence:
