@@ -11,7 +11,7 @@ def test_effect_with_all_evidence_enters() -> None:
 
 
 def test_best_of_many_shapes_must_be_surer() -> None:
-    assert judge(CLEAR, tried=16, shapes=40) == 'not beyond a disturbance that changes slowly'
+    assert judge(CLEAR.of_best(40), tried=16) == 'not beyond a disturbance that changes slowly'
 
 
 def test_effect_that_does_not_predict_held_out_data_stays_outside() -> None:

@@ -1,7 +1,7 @@
 """How much a larger structure is worth: in sample, robust to serial correlation, and held out."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import stats
@@ -31,6 +31,11 @@ class Evidence:
     p_block: float
     held_out_gain: float
     p_held_out: float
+
+    def of_best(self, looks: int) -> 'Evidence':
+        """Return the evidence for a structure that was the best of so many."""
+        p_value, p_block = (min(1.0, looks * p) for p in (self.p_value, self.p_block))
+        return replace(self, p_value=p_value, p_block=p_block)
 
 
 def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:

@@ -107,9 +107,8 @@ def _completed(
     current: Fit, approached: _Approach, held_out: Sequence[Stretch], tried: int
 ) -> Trial:
     fit = complete(approached.near)
-    evidence = compare(current, fit, held_out)
-    outcome = judge(evidence, tried, approached.score.shapes)
-    return Trial(approached.kind, fit, evidence, outcome)
+    evidence = compare(current, fit, held_out).of_best(approached.score.shapes)
+    return Trial(approached.kind, fit, evidence, judge(evidence, tried))
 
 
 def _dismissed(screen: Screen, kind: type[Effect], score: Score) -> Trial:
@@ -133,14 +132,13 @@ def may_be_chance(evidence: Evidence, tried: int) -> bool:
     return evidence.p_value * tried > LIKELIHOOD_LEVEL or evidence.delta_bic <= 0.0
 
 
-def judge(evidence: Evidence, tried: int, shapes: int = 1) -> str:
-    """Say whether an effect, the best of so many shapes, may enter, or why not."""
-    if may_be_chance(evidence, tried * shapes):
+def judge(evidence: Evidence, tried: int) -> str:
+    """Say whether an effect, one of so many tried, may enter, or why not."""
+    if may_be_chance(evidence, tried):
         return CHANCE
-    p_block = shapes * evidence.p_block
-    if p_block > BLOCK_LEVEL:
+    if evidence.p_block > BLOCK_LEVEL:
         return 'not beyond a disturbance that changes slowly'
-    sure = p_block < BEYOND_DOUBT and evidence.held_out_gain > 0.0
+    sure = evidence.p_block < BEYOND_DOUBT and evidence.held_out_gain > 0.0
     if evidence.p_held_out > HELD_OUT_LEVEL and not sure:
         return 'does not predict held-out data better'
     return SUPPORTED
