@@ -1,5 +1,7 @@
 """What every effect promises, found by walking the library."""
 
+import subprocess
+import sys
 from dataclasses import dataclass, fields
 from math import isfinite
 
@@ -188,3 +190,29 @@ def test_another_package_can_bring_an_effect(monkeypatch):
     assert set(found) == {*library(), 'tailwind'}
     run = push(Model(friction=SMOOTH, effects=(Tailwind(5.0),)), 0.0, 0.0, 1.0)
     assert run.twist[-1, 0] == pytest.approx(5.0 / 10.0)
+
+
+GUST = """
+from diffbot_sim.physics import Model
+from diffbot_sim.physics.compiled import compiled
+from diffbot_sim.physics.composition import compose
+from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
+from diffbot_sim.physics.stages import pushed
+
+@compiled
+def gust(at, load, coefficient):
+    return pushed(load, coefficient, 0.0)
+
+class Gust(QuadraticDrag):
+    kernel = gust
+
+compose((Gust,))
+"""
+
+
+def test_effect_whose_module_got_another_name_compiles_again(tmp_path):
+    for name in ('before', 'after'):
+        file = tmp_path / f'{name}.py'
+        file.write_text(GUST)
+        subprocess.run([sys.executable, '-c', f'import {name}'], cwd=tmp_path, check=True)
+        file.unlink()

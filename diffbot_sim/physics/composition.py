@@ -77,7 +77,8 @@ def _key(kinds: tuple[type[Effect], ...]) -> str:
     known = [Path(file) for file in files if file is not None]
     if len(known) < len(files):  # in a notebook a name may stand for another law at any time
         return uuid4().hex
-    return digest_of([kind.__qualname__ for kind in kinds], known)
+    # Code on disk knows its module by name, and does not load where that has another one.
+    return digest_of([f'{kind.__module__}.{kind.__qualname__}' for kind in kinds], known)
 
 
 def _links(kinds: tuple[type[Effect], ...]) -> dict[Stage, tuple[_Link, ...]]:
