@@ -16,7 +16,7 @@ from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.stages import Traction
 from diffbot_sim.physics.state import State
 from diffbot_sim.physics.stepper import advance, update_contacts
-from diffbot_sim.physics.vector import STATE_SIZE, evaluate, motion_at
+from diffbot_sim.physics.vector import STATE_SIZE, copy_state, evaluate, motion_at
 from diffbot_sim.records import Array, Commands, Trajectory
 
 MATRIX = types.Array(types.float64, 2, 'C')
@@ -195,8 +195,7 @@ def observe(
     at = motion_at(params, z, time, 0.0)
     reaction = contact.reaction_at(laws, params, states, at, inputs, modes)
     now = instant_at(laws, params, states, at, inputs, modes)
-    for i in range(STATE_SIZE):
-        row[i] = z[i]
+    copy_state(z, row)
     row[7], row[8] = at.v, at.omega
     row[9], row[10] = now.traction_right, now.traction_left
     row[11], row[12] = reaction.right, reaction.left

@@ -16,6 +16,7 @@ from diffbot_sim.physics.vector import (
     SPEED_LEFT,
     SPEED_RIGHT,
     STATE_SIZE,
+    copy_state,
     motion_at,
 )
 from diffbot_sim.records import Array
@@ -55,8 +56,7 @@ def advance(
         )
         at = motion_at(params, z, time + done, taken)
         settle(params, states, at, inputs)
-        for i in range(STATE_SIZE):
-            z[i] = work[0, i]
+        copy_state(work[0], z)
         if event:
             contact.arrive(z, modes)
             events += 1
@@ -242,8 +242,7 @@ def _runge_kutta(
     Return whether h is short enough for the method to be stable.
     """
     half, probe = 0.5 * h, work[0]
-    for i in range(STATE_SIZE):
-        probe[i] = z[i]
+    copy_state(z, probe)
     k1 = _derivative(laws, params, states, probe, modes, inputs, time, 0.0)
     for i in range(STATE_SIZE):
         work[1, i] = k1[i]

@@ -12,6 +12,13 @@ STATE_SIZE = 7
 
 
 @compiled
+def copy_state(z: Array, into: Array) -> None:
+    """Copy number by number: a slice would need memory of its own, in case both overlap."""
+    for index in range(STATE_SIZE):
+        into[index] = z[index]
+
+
+@compiled
 def motion_at(params: Array, z: Array, time: float, elapsed: float) -> Motion:
     """Gather what effects may look at."""
     v = 0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT])
