@@ -5,6 +5,7 @@ import numpy as np
 from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.uncertainty import CHANCE, estimates_at, farthest
 from diffbot_sim.physics import Model
+from diffbot_sim.physics.effects.payload_change import PayloadChange
 
 SPACE = Space(Model(), ())
 NAMES = [coordinate.name for coordinate in SPACE.coordinates]
@@ -31,3 +32,10 @@ def test_interval_reaches_across_a_hollow_of_the_likelihood() -> None:
 
 def test_interval_ends_at_a_bound_where_nothing_speaks_against_it() -> None:
     assert farthest(lambda value: 0.0, 1.0, -3.0) == -3.0
+
+
+def test_load_of_a_heavy_robot_is_not_pulled_to_none() -> None:
+    space = Space(Model(), (PayloadChange,))
+    own = [space.coordinates[index] for index in space.places('payload_change')]
+    mass = next(coordinate for coordinate in own if coordinate.name.endswith('mass'))
+    assert (9.0 / mass.value(1.0) / mass.deviation) ** 2 < 0.1  # of one sample's worth

@@ -104,13 +104,15 @@ def covariance(fit: Fit) -> Array:
     Holds where innovations are correlated or their scale changes along the run.
     """
     jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
-    return sandwich(jacobian, fit.whitened.ravel())
+    return sandwich(jacobian, fit.whitened.ravel(), fit.prior_information)
 
 
-def sandwich(jacobian: Array, errors: Array) -> Array:
-    """Return the block-robust covariance of a least-squares fit, with the weak prior's pull."""
-    size = jacobian.shape[1]
-    bread = np.linalg.pinv(jacobian.T @ jacobian + np.eye(size))
+def sandwich(jacobian: Array, errors: Array, known: Array) -> Array:
+    """Return the block-robust covariance of a least-squares fit.
+
+    known: what a weak prior knows of each coordinate, the inverse variances, shape (p,).
+    """
+    bread = np.linalg.pinv(jacobian.T @ jacobian + np.diag(known))
     scores = block_scores(jacobian, errors)
     return np.asarray(bread @ (scores.T @ scores * BLOCKS / (BLOCKS - 1)) @ bread)
 
@@ -123,7 +125,8 @@ def jackknife(fit: Fit) -> Array:
     """
     jacobian = fit.jacobian
     parts = [np.tensordot(j, j, ((0, 1), (0, 1))) for j in np.array_split(jacobian, BLOCKS)]
-    whole, scores = sum(parts, np.eye(jacobian.shape[-1])), block_scores(jacobian, fit.whitened)
+    whole = sum(parts, np.diag(fit.prior_information))
+    scores = block_scores(jacobian, fit.whitened)
     moved = [np.linalg.solve(whole - p, s) for p, s in zip(parts, scores, strict=True)]
     return np.asarray(np.transpose(moved) @ moved * (BLOCKS - 1) / BLOCKS)
 

@@ -49,6 +49,12 @@ class Fit:
         """Innovations of all stretches over sigma, shape (n, 2)."""
         return whitened(self.stretches, self.model, self.gains, self.sigma)
 
+    @property
+    def prior_information(self) -> Array:
+        """What the weak prior knows of u and then of the gains: the inverse variances."""
+        gains = np.full(len(self.gains), PRIOR_DEVIATION)
+        return np.asarray(np.concatenate([self.space.deviations(), gains]) ** -2.0)
+
     def deviance(self, sigma: Array) -> float:
         """Return twice the robust cost at a given scale."""
         return float(huber(self.whitened * (self.sigma / sigma)).sum())

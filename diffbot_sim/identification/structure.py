@@ -104,7 +104,7 @@ def explained_by(screen: Screen, basis: Basis) -> Dependence:
     slopes = sensitivity(screen.fit, screen.fit.stretches, basis)
     fall, amounts, flat = screen.explained(slopes)
     rest = screen.residual + flat @ amounts
-    spread = sandwich(flat, rest)
+    spread = sandwich(flat, rest, np.ones(flat.shape[1]))
     return Dependence(
         basis,
         fall,
