@@ -119,6 +119,12 @@ def test_effect_that_only_resembles_what_acts_is_not_named() -> None:
     assert result.unexplained.variable == 'past_force'
 
 
+def test_interval_of_a_time_constant_longer_than_the_drive_reaches_far() -> None:
+    result = identify([run_of(with_typical('friction_drift'), 3)], DECLARED)
+    found = result.effects[0].parameters['time_constant']
+    assert found.low < 150.0 < 1.3 * found.value < found.high
+
+
 def test_friction_of_another_form_than_declared_takes_no_name_away() -> None:
     force = 0.12 * np.array([1.0, 0.3, 0.0, -0.2, 0.0, 0.4])  # against the motion, by speed [N]
     points = np.concatenate([force[::-1], -force])

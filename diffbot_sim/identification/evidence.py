@@ -47,18 +47,19 @@ def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
     return Evidence(
         delta_bic=ratio - added * float(np.log(samples)),
         p_value=float(stats.chi2.sf(ratio, added)),
-        p_block=wald(large, _amounts(small, large)),
+        p_block=wald(large, *_added(small, large)),
         held_out_gain=gain,
         p_held_out=chance,
     )
 
 
-def _amounts(small: Fit, large: Fit) -> list[int]:
-    """Return where the larger fit has amounts that the smaller one lacks, shapes left out."""
+def _added(small: Fit, large: Fit) -> tuple[list[int], list[int]]:
+    """Return where the larger fit has amounts, and shapes, that the smaller one lacks."""
     known = {coordinate.name for coordinate in small.space.coordinates}
     names = [coordinate.name for coordinate in large.space.coordinates]
-    shapes = large.space.shapes
-    return [i for i, name in enumerate(names) if name not in known and i not in shapes]
+    added = [i for i, name in enumerate(names) if name not in known]
+    shapes = [i for i in added if i in large.space.shapes]
+    return [i for i in added if i not in shapes], shapes
 
 
 def delta_bic(first: Fit, second: Fit) -> float:
@@ -98,15 +99,6 @@ def block_gain(gain: Array) -> tuple[float, float]:
     return float(gain.mean()), float(stats.wilcoxon(blocks, alternative='greater').pvalue)
 
 
-def covariance(fit: Fit) -> Array:
-    """Return the covariance of (u, gains): sandwich with blocks, shape (p, p).
-
-    Holds where innovations are correlated or their scale changes along the run.
-    """
-    jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
-    return sandwich(jacobian, fit.whitened.ravel(), fit.prior_information)
-
-
 def sandwich(jacobian: Array, errors: Array, known: Array) -> Array:
     """Return the block-robust covariance of a least-squares fit.
 
@@ -137,13 +129,20 @@ def block_scores(jacobian: Array, errors: Array) -> Array:
     return np.array([np.tensordot(e, j, e.ndim) for j, e in zip(*parts, strict=True)])
 
 
-def wald(fit: Fit, indices: Sequence[int]) -> float:
-    """Return the block-robust p-value of some coordinates being at their prior (neutral)."""
-    chosen = list(indices)
-    departure = fit.u[chosen] - fit.space.prior()[chosen]
-    jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])[:, chosen]
-    spread = covariance(fit)[np.ix_(chosen, chosen)]
-    return wald_p(departure, spread, informative_blocks(jacobian))
+def wald(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
+    """Return the block-robust p-value of some amounts being at their prior (neutral).
+
+    shapes: what they were found with, and is held: without an amount it means nothing, and beside
+    it the same data may allow twice the amount twice as late. How many were tried is counted by
+    `Evidence.of_best`.
+    """
+    jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
+    kept = np.delete(np.arange(jacobian.shape[1]), shapes)
+    chosen = np.searchsorted(kept, amounts)
+    spread = sandwich(jacobian[:, kept], fit.whitened.ravel(), fit.prior_information[kept])
+    departure = (fit.u - fit.space.prior())[amounts]
+    blocks = informative_blocks(jacobian[:, amounts])
+    return wald_p(departure, spread[np.ix_(chosen, chosen)], blocks)
 
 
 def informative_blocks(sensitivity: Array) -> float:

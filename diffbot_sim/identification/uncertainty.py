@@ -20,6 +20,8 @@ FIRST_STEP, GROWTH = 1e-4, 1.4
 # What chance allows the deviance to rise by; the search ends at so many times that.
 CHANCE, BEYOND = QUANTILE**2, 4.0
 HALVINGS = 5
+# Steps by which all other coordinates follow one along its profile.
+ADAPTATIONS = 3
 # Coordinates are of order one; fits end a little inside their bounds.
 NEAR_BOUND = 1e-3
 
@@ -60,24 +62,37 @@ def farthest(rise: Callable[[float], float], best: float, bound: float) -> float
 
 
 class _Profile:
-    """The deviance of a fit along one coordinate, while all others adapt to first order."""
+    """The deviance of a fit along one coordinate, while all others adapt.
+
+    Remembers where they went for values nearby: an amount may have to follow its time constant
+    far, on a curve.
+    """
 
     def __init__(self, fit: Fit, index: int) -> None:
-        self._fit, self._index = fit, index
-        self._others = np.delete(fit.jacobian, index, axis=-1).reshape(fit.whitened.size, -1)
+        self._fit, self._index, self._known = fit, index, [fit]
+        others = np.delete(fit.jacobian, index, axis=-1).reshape(fit.whitened.size, -1)
+        self._shift = -np.linalg.pinv(others, rcond=1e-8)
 
     def rise(self, value: float) -> float:
         """Return by how much the deviance is higher than at the fit."""
-        fit = self._fit
-        moved = replace(fit, u=np.where(np.arange(len(fit.u)) == self._index, value, fit.u))
-        change = (moved.whitened - fit.whitened).ravel()
-        shift = np.linalg.lstsq(self._others, -change, rcond=1e-8)[0]
-        shift = np.insert(shift, self._index, 0.0)
-        u = np.clip(moved.u + shift[: len(fit.u)], *fit.space.bounds())
-        gains = np.clip(fit.gains + shift[len(fit.u) :], *GAIN_LIMITS)
-        adapted = replace(moved, u=u, gains=gains)
-        least = min(moved.deviance(fit.sigma), adapted.deviance(fit.sigma))
-        return least - fit.deviance(fit.sigma)
+        index, sigma = self._index, self._fit.sigma
+        nearest = min(self._known, key=lambda known: abs(float(known.u[index]) - value))
+        u = nearest.u.copy()
+        u[index] = value
+        tried = [replace(nearest, u=u)]
+        for _ in range(ADAPTATIONS):
+            tried.append(self._adapted(tried[-1]))
+        best = min(tried, key=lambda fit: fit.deviance(sigma))
+        self._known.append(best)
+        return best.deviance(sigma) - self._fit.deviance(sigma)
+
+    def _adapted(self, moved: Fit) -> Fit:
+        """Return a step towards where the others lower the error most, by the fit's own slopes."""
+        change = (moved.whitened - self._fit.whitened).ravel()
+        shift = np.insert(self._shift @ change, self._index, 0.0)
+        u, gains = np.split(np.concatenate([moved.u, moved.gains]) + shift, [len(moved.u)])
+        bounds = self._fit.space.bounds()
+        return replace(moved, u=np.clip(u, *bounds), gains=np.clip(gains, *GAIN_LIMITS))
 
 
 def estimates_at(space: Space, u: Array, spread: Array) -> dict[str, Estimate]:
