@@ -125,14 +125,39 @@ def test_interval_of_a_time_constant_longer_than_the_drive_reaches_far() -> None
     assert found.low < 150.0 < 1.3 * found.value < found.high
 
 
-def test_friction_of_another_form_than_declared_takes_no_name_away() -> None:
-    force = 0.12 * np.array([1.0, 0.3, 0.0, -0.2, 0.0, 0.4])  # against the motion, by speed [N]
+def with_another_friction(model: Model, largest: float) -> Model:
+    """Return a robot whose friction differs by up to so much [N], alike forward and backward."""
+    force = largest * np.array([1.0, 0.3, 0.0, -0.2, 0.0, 0.4])  # against the motion, by speed
     points = np.concatenate([force[::-1], -force])
-    other = EmpiricalWheelForce('wheels', 'wheel_speed', -2.5, 2.5, *points.tolist())
-    result = identify([run_of(with_typical('friction_drift').with_effect(other), 3)], DECLARED)
+    return model.with_effect(
+        EmpiricalWheelForce('wheels', 'wheel_speed', -2.5, 2.5, *points.tolist())
+    )
+
+
+def test_friction_of_another_form_than_declared_is_told_as_such() -> None:
+    result = identify([run_of(with_another_friction(DECLARED, 0.3), 5)], DECLARED)
+    assert result.verdict == 'unexplained'
+    assert result.unexplained is not None
+    assert result.unexplained.variable == 'rolling'
+
+
+def test_friction_of_another_form_than_declared_takes_no_name_away() -> None:
+    truth = with_another_friction(with_typical('friction_drift'), 0.3)
+    result = identify([run_of(truth, 3)], DECLARED)
     assert [effect.name for effect in result.effects] == ['friction_drift']
     assert result.unexplained is not None
-    assert result.unexplained.variable == 'wheel_speed'
+    assert result.unexplained.variable == 'rolling'
+
+
+def test_effect_is_named_beside_a_larger_one_that_the_library_lacks() -> None:
+    others = [kind for name, kind in laws().items() if name != 'wheel_ripple']
+    (small,) = with_typical('slope').effects
+    result = identify(
+        [run_of(with_typical('wheel_ripple').with_effect(small), 7)], DECLARED, kinds=others
+    )
+    assert [effect.name for effect in result.effects] == ['slope']
+    assert result.unexplained is not None
+    assert result.unexplained.variable == 'wheel_angle'
 
 
 def test_interval_is_narrow_and_near_the_truth() -> None:

@@ -49,6 +49,18 @@ def test_every_form_draws_as_many_functions_as_it_shows(view: View, name: str) -
         assert design.shape[1] <= form.columns(view, grid).shape[1]
 
 
+@pytest.mark.parametrize('name', ['rolling', 'turning'])
+def test_friction_is_alike_both_ways(view: View, name: str) -> None:
+    form = VARIABLES[name].form
+    (knots,) = form.grids([view])
+    points, design = form.curve(knots)
+    np.testing.assert_array_equal(points, -points[::-1])
+    np.testing.assert_array_equal(design, -design[::-1])
+    total = form.columns(view, knots).sum(axis=1)
+    speed = {'rolling': view.wheel_speed, 'turning': view.omega[:, None]}[name]
+    np.testing.assert_allclose(total, np.sign(speed), atol=1e-12)
+
+
 def test_past_of_a_steady_command_is_that_command(view: View) -> None:
     command = view.stretch.run.commands.force[0]
     np.testing.assert_allclose(view.past_force(-1e-9, 0.0)[0], command, atol=1e-6)

@@ -6,7 +6,8 @@ from math import inf
 
 import numpy as np
 
-from diffbot_sim.identification.bases import Basis, again
+from diffbot_sim.identification.bases import again
+from diffbot_sim.identification.dependence import Dependence, explained_by, realised, worth_of
 from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.screening import Screen
@@ -14,24 +15,21 @@ from diffbot_sim.identification.selection import Selection
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.identification.structure import (
     BLOCK_LEVEL,
-    Dependence,
     dependences,
     describe,
-    explained_by,
     find_dependence,
-    sensitivity,
-    worth_of,
 )
 from diffbot_sim.physics.effects import Effect
+from diffbot_sim.records import Array
 
 # By how much in BIC a free form must beat an effect before the effect's name is withdrawn.
 OUTDONE = 10.0
 # An effect that takes this share of its worth from a free form stands or falls with it.
 TAKEN_SHARE = 0.5
 # Shares of what an effect explains. A law of the right form leaves less than the first to a free
-# form that is about the same: from which it takes, or which could do, more than the second.
+# form that is about the same: from which it takes more than the second.
 LEFT_SHARE, SAME_SHARE = 0.1, 0.15
-# A name is believed beside structure without a name that explains less than this share of it.
+# A name is believed beside a refused effect that explains less than this share of it.
 WORTHIER = 0.5
 # No effect lowered the BIC by half as much on any of 200 clean robots; what does, though it may
 # not enter, means that something is missing.
@@ -42,30 +40,27 @@ def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection,
     """Withdraw names that do not stand up to a free-form force; return what is left unnamed.
 
     So goes a name that a free form outdoes, the weakest where one free form outdoes all together,
-    a name whose law leaves much of what it is about, and the weakest one where almost as much is
-    left as it explains: it may be a part of that.
+    and a name whose law leaves much of what it is about. Beside structure that takes nothing from
+    it a name is believed, however much that explains.
     """
     final = selection.final
     for kind in final.space.kinds:
         better = _outdone(selection.without[kind.name], final, (kind,))
         if better is not None:
             return _without(selection, kind.name, describe(better, final), held_out)
-    worth, weakest = _weakest(selection)
     if len(final.space.kinds) > 1:
         better = _outdone(selection.base, final, final.space.kinds)
         if better is not None:
-            return _without(selection, weakest, describe(better, final), held_out)
+            return _without(selection, _weakest(selection)[1], describe(better, final), held_out)
     left = find_dependence(Screen(final), held_out)
     if left is None:
         return _suspicion(selection, held_out)
     for kind in final.space.kinds:
         rest = selection.without[kind.name]
-        whole = _free_form_of(rest, final, kind, left)
+        whole = _free_form_of(rest, final, left)
         if whole is not None:
             return _without(selection, kind.name, describe(whole, rest), held_out)
-    if WORTHIER * worth > worth_of(left, final):
-        return selection, describe(left, final)
-    return _without(selection, weakest, describe(left, final), held_out)
+    return selection, describe(left, final)
 
 
 def _suspicion(
@@ -106,25 +101,30 @@ def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence
     rest: the fit that lacks the effects, final: the one that has them. An effect of the right kind
     needs fewer parameters than any free form, and leaves nothing of it. One that only resembles
     what acts is outdone, takes its worth from the free form, and leaves the rest of it. Structure
-    that is there with and without the effect says nothing against its name. All to first order,
-    so that both sides of the comparison err alike.
+    that is there with and without the effect says nothing against its name.
     """
     screen = Screen(rest)
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
+    # To first order, as the free forms: both sides of the comparison err alike.
     named = max(worth, *(screen.score(kind).ratio for kind in kinds))
     named -= sum(len(kind.specs()) for kind in kinds) * float(np.log(rest.whitened.size))
     best = dependences(screen)[0]
     if worth_of(best, rest) < named + OUTDONE or best.p_block > BLOCK_LEVEL:
         return None
-    left = explained_by(Screen(final), again(best.basis, final, final.stretches))
-    taken = best.fall - left.fall
+    whole, left = (_acting_in(fit, best, final.sigma) for fit in (rest, final))
+    taken = whole.fall - left.fall
     stands = worth_of(left, final) <= OUTDONE or taken <= TAKEN_SHARE * worth
-    return None if stands else best
+    return None if stands else whole
 
 
-def _free_form_of(
-    rest: Fit, final: Fit, kind: type[Effect], left: Dependence
-) -> Dependence | None:
+def _acting_in(fit: Fit, like: Dependence, sigma: Array) -> Dependence:
+    """Return the free form of a dependence as it really acts in a fit, at a given scale."""
+    scaled = replace(fit, sigma=sigma)
+    basis = again(like.basis, scaled, fit.stretches)
+    return realised(scaled, explained_by(Screen(scaled), basis))
+
+
+def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
     """Return the free-form force that an effect of a wrong form stands for, if that is so.
 
     rest: the fit that lacks the effect, final: the one that has it; left: what is beyond doubt in
@@ -135,21 +135,5 @@ def _free_form_of(
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
     if left.fall < LEFT_SHARE * worth:
         return None
-    whole = explained_by(Screen(rest), again(left.basis, rest, rest.stretches))
-    taken = whole.fall - left.fall
-    # First order promises little where parameters would move far: then nothing seems taken.
-    could = min(whole.fall, _imitated(final, kind, left.basis) * worth)
-    return whole if max(taken, could) >= SAME_SHARE * worth else None
-
-
-def _imitated(fit: Fit, kind: type[Effect], basis: Basis) -> float:
-    """Return the share of what an effect does, to first order, that a free form can do as well."""
-    own = fit.space.places(kind.name)
-    departure = (fit.u - fit.space.prior())[own]
-    others = np.delete(fit.jacobian, own, axis=-1).reshape(fit.whitened.size, -1)
-    free = sensitivity(fit, fit.stretches, basis).reshape(fit.whitened.size, -1)
-    effect = (fit.jacobian[..., own] @ departure).ravel()
-    rest = effect - others @ np.linalg.lstsq(others, effect, rcond=1e-8)[0]
-    both = np.column_stack([others, free])
-    missed = effect - both @ np.linalg.lstsq(both, effect, rcond=1e-8)[0]
-    return 1.0 - float(missed @ missed) / max(float(rest @ rest), 1e-12)
+    whole = _acting_in(rest, left, final.sigma)
+    return whole if whole.fall - left.fall >= SAME_SHARE * worth else None

@@ -15,8 +15,12 @@ from diffbot_sim.physics.effects.empirical_force import POINTS, EmpiricalForce
 from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForce
 from diffbot_sim.physics.model import Model
 
+# What the table of a structure runs over, where that is not the structure's own variable.
+TABLE_OF = {'rolling': 'wheel_speed', 'turning': 'omega'}
 # The term is kept when it lowers the held-out error, v and ω together, by this share.
 WORTHWHILE = 0.02
+# An error [m/s, rad/s] as good as none, as of the yaw rate of what cannot turn.
+NOTHING = 1e-9
 
 
 def with_term(fit: Fit, structure: Structure, held_out: Sequence[Stretch]) -> Fit | None:
@@ -39,7 +43,7 @@ def table_of(structure: Structure) -> EmpiricalForce | EmpiricalWheelForce | Non
     low, high = float(structure.knots[0]), float(structure.knots[-1])
     places = np.linspace(low, high, POINTS)
     points = [float(f) for f in np.interp(places, structure.knots, structure.force)]
-    axis, variable = structure.axis, structure.variable
+    axis, variable = structure.axis, TABLE_OF.get(structure.variable, structure.variable)
     if axis in empirical_force.AXES and variable in empirical_force.VARIABLES:
         return EmpiricalForce(axis, variable, low, high, *points)
     if axis in empirical_wheel_force.AXES and variable in empirical_wheel_force.VARIABLES:
@@ -51,4 +55,4 @@ def _error(model: Model, held_out: Sequence[Stretch]) -> float:
     """Return the mean logarithm of the held-out errors of v and ω."""
     misses = [stretch.twist - run_free(model, stretch).twist for stretch in held_out]
     both = norm(np.concatenate(misses))
-    return float(np.log([both.v_rmse, both.omega_rmse]).mean())
+    return float(np.log(np.maximum([both.v_rmse, both.omega_rmse], NOTHING)).mean())

@@ -74,6 +74,28 @@ class TwoSided:
 
 
 @dataclass(frozen=True)
+class Odd:
+    """Piecewise linear in the size of a variable, with its sign: alike on both sides of zero."""
+
+    of: Of
+    looked_at: ClassVar[int] = 1
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return distinct knots of the size."""
+        return TwoSided(self.of).grids(views)
+
+    def columns(self, view: View, knots: Array) -> Array:
+        """Evaluate hats along a stretch, turned round where the variable is negative."""
+        values = self.of(view)
+        return _hats(np.abs(values), knots, np.sign(values))
+
+    def curve(self, knots: Array) -> tuple[Array, Array]:
+        """Return points from the negative end to the positive one, and all functions there."""
+        side = np.eye(len(knots))
+        return np.concatenate([-knots[::-1], knots]), np.vstack([-side[::-1], side])
+
+
+@dataclass(frozen=True)
 class Periodic:
     """Waves in an angle: of the heading, of a wheel's turn times an order, of time.
 
@@ -129,7 +151,7 @@ class Past:
         return 0.5 * (edges[1:] + edges[:-1]), np.eye(len(edges) - 1)
 
 
-Form = Piecewise | TwoSided | Periodic | Past
+Form = Piecewise | TwoSided | Odd | Periodic | Past
 
 
 def _hats(values: Array, knots: Array, weights: Array) -> Array:

@@ -7,6 +7,7 @@ import numpy as np
 from diffbot_sim.identification.forms import (
     FINE_KNOTS,
     Form,
+    Odd,
     Of,
     Past,
     Periodic,
@@ -70,6 +71,11 @@ def _share_of_force(view: View) -> Array:
 VARIABLES = {
     'v': Variable('the speed', Piecewise(lambda view: view.v), BODY),
     'omega': Variable('the yaw rate', Piecewise(lambda view: view.omega), BODY),
+    'turning': Variable(
+        'the yaw rate, alike to the left and to the right',
+        Odd(lambda view: view.omega),
+        ('omega',),
+    ),
     'cornering': Variable(
         'the product of speed and yaw rate', Piecewise(lambda view: view.v * view.omega), BODY
     ),
@@ -83,6 +89,11 @@ VARIABLES = {
     'wheel_speed': Variable(
         "each wheel's speed",
         TwoSided(lambda view: view.wheel_speed),
+        WHEELS,
+    ),
+    'rolling': Variable(
+        "each wheel's speed, alike forward and backward",
+        Odd(lambda view: view.wheel_speed),
         WHEELS,
     ),
     'wheel_angle': Variable(

@@ -57,10 +57,12 @@ VARIABLES = {
 ANGLES = ('heading', 'wheel_angle', 'rhythm')  # radians everywhere, degrees on paper
 # Of variables in which structure without a name is looked for; the others are those above.
 STRUCTURE_LABELS = {
+    'turning': 'turn rate ω [rad/s]',
     'cornering': 'v·ω [m/s²]',
     'rhythm': 'phase [°]',
     'wheel_angle': 'right wheel angle times the order [°]',
     'wheel_speed': 'speed of a wheel [m/s]',
+    'rolling': 'speed of a wheel [m/s]',
     'wheel_force': "a wheel's commanded force [N]",
     'past_force': 'age of the command [s]',
     'force_over_time': 'time [s]',
