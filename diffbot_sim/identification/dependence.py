@@ -17,8 +17,11 @@ from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.identification.variables import VARIABLES
 from diffbot_sim.records import Array
 
-# Evaluations of a fit of a free form, and the most that an amount may be, in largest commands.
-EVALUATIONS, MOST_OF_FORCE = 10, 1.0
+# Evaluations of a fit of a free form.
+EVALUATIONS = 10
+# The most that an amount may be, and what it may well be, in largest commands: where parameters
+# of the model can do the same, they do.
+MOST, TYPICAL = 1.0, 0.1
 # Parts of the runs, and into how many groups of parts they are dealt in turn.
 PARTS, FOLDS = 40, 5
 # Keeps functions apart that the other parts of a run hardly show.
@@ -33,8 +36,8 @@ class Dependence:
 
     fall: of the deviance, to first order until it is realised; amounts: coefficients of the basis
     in its units; adaptation: by how much u and gains shift with them, once realised; spread:
-    covariance of the amounts; p_block: as for effects; p_folds: the chance of what amounts from
-    other parts of the runs predict of each part.
+    covariance of the amounts, once realised with the parameters as they are; p_block: as for
+    effects; p_folds: the chance of what amounts from other parts of the runs predict of each part.
     """
 
     basis: Basis
@@ -80,25 +83,29 @@ def realised(fit: Fit, dependence: Dependence) -> Dependence:
     def errors(at: Array) -> Array:
         return acting(fit, basis, at, fit.stretches)
 
-    many = np.full(basis.size, MOST_OF_FORCE / UNIT_SHARE)
+    units = np.full(basis.size, 1.0 / UNIT_SHARE)
     prior = Prior(
         np.concatenate([fit.space.prior(), GAIN_PRIOR, np.zeros(basis.size)]),
-        np.concatenate([fit.prior_information**-0.5, many]),
+        np.concatenate([fit.prior_information**-0.5, TYPICAL * units]),
     )
     (low, high), (least, most) = fit.space.bounds(), GAIN_LIMITS
-    bounds = np.concatenate([low, least, -many]), np.concatenate([high, most, many])
+    bounds = (
+        np.concatenate([low, least, -MOST * units]),
+        np.concatenate([high, most, MOST * units]),
+    )
     start = np.concatenate([fit.u, fit.gains, np.zeros(basis.size)])
     point, _ = minimise(errors, start, prior, bounds, EVALUATIONS, rounds=1)
     left = errors(point)
     slopes = derivatives(errors, point, left).reshape(-1, len(point))
-    spread = sandwich(slopes, left.ravel(), prior.deviation**-2.0)[size:, size:]
+    known = prior.deviation**-2.0
+    joint = sandwich(slopes, left.ravel(), known)[size:, size:]
     return replace(
         dependence,
         fall=max(float(huber(fit.whitened).sum() - huber(left).sum()), 0.0),
         amounts=point[size:],
         adaptation=(point - start)[:size],
-        spread=spread,
-        p_block=wald_p(point[size:], spread),
+        spread=sandwich(slopes[:, size:], left.ravel(), known[size:]),
+        p_block=wald_p(point[size:], joint),
     )
 
 

@@ -72,7 +72,7 @@ VARIABLES = {
     'v': Variable('the speed', Piecewise(lambda view: view.v), BODY),
     'omega': Variable('the yaw rate', Piecewise(lambda view: view.omega), BODY),
     'turning': Variable(
-        'the yaw rate, alike to the left and to the right',
+        'the yaw rate (alike to the left and to the right)',
         Odd(lambda view: view.omega),
         ('omega',),
     ),
@@ -92,7 +92,7 @@ VARIABLES = {
         WHEELS,
     ),
     'rolling': Variable(
-        "each wheel's speed, alike forward and backward",
+        "each wheel's speed (alike forward and backward)",
         Odd(lambda view: view.wheel_speed),
         WHEELS,
     ),
