@@ -36,16 +36,21 @@ class Running(NamedTuple):
         return self.log.read_text()
 
 
+def start(log: Path, *command: str) -> Running:
+    """Start a process."""
+    with log.open('wb') as file:
+        return Running(subprocess.Popen(command, stdout=file, stderr=subprocess.STDOUT), log)
+
+
 @contextmanager
 def running(log: Path, *words: str) -> Iterator[Running]:
     """Run a command until the end of the block."""
-    with log.open('wb') as file:
-        process = subprocess.Popen([*COMMAND, *words], stdout=file, stderr=subprocess.STDOUT)
+    started = start(log, *COMMAND, *words)
     try:
-        yield Running(process, log)
+        yield started
     finally:
-        process.kill()
-        process.wait()
+        started.process.kill()
+        started.process.wait()
 
 
 def refusal(*words: str) -> str:

@@ -138,7 +138,10 @@ def structure_figure(structure: Structure) -> Figure:
     look = layout(
         320, xaxis=axis(structure_label(structure.variable)), yaxis=axis(force), showlegend=False
     )
-    return Figure('What no effect accounts for', 'Estimate with its 95 % band.', data, look)
+    about = (
+        'Estimate with its 95 % band, beside the friction and inertia that were fitted with it.'
+    )
+    return Figure('What no effect accounts for', about, data, look)
 
 
 def error_figures(errors: Errors) -> list[Figure]:
