@@ -29,19 +29,19 @@ TAKEN_SHARE = 0.5
 # Shares of what an effect explains. A law of the right form leaves less than the first to a free
 # form that is about the same: from which it takes more than the second.
 LEFT_SHARE, SAME_SHARE = 0.1, 0.15
-# A name is believed beside a refused effect that explains less than this share of it.
-WORTHIER = 0.5
-# No effect lowered the BIC by half as much on any of 200 clean robots; what does, though it may
-# not enter, means that something is missing.
+# No effect lowered the BIC by half as much on any of 200 clean robots; what does is no chance,
+# though it may not enter.
 SUSPICIOUS = 50.0
+# A name that is worth less is believed beside what is left, or refused, if that explains less than
+# this share of it.
+WORTHIER = 0.5
 
 
 def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection, Structure | None]:
     """Withdraw names that do not stand up to a free-form force; return what is left unnamed.
 
     So goes a name that a free form outdoes, the weakest where one free form outdoes all together,
-    and a name whose law leaves much of what it is about. Beside structure that takes nothing from
-    it a name is believed, however much that explains.
+    and a name whose law leaves much of what it is about, or explains little beside that.
     """
     final = selection.final
     for kind in final.space.kinds:
@@ -129,11 +129,15 @@ def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
 
     rest: the fit that lacks the effect, final: the one that has it; left: what is beyond doubt in
     it. A law of the right form leaves little to a free form that is about the same. What is about
-    something else says nothing against it: the declared friction may be of another form than the
-    robot's.
+    something else says nothing against it, as long as the effect explains enough beside it: the
+    declared friction may be of another form than the robot's.
     """
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
     if left.fall < LEFT_SHARE * worth:
         return None
     whole = _acting_in(rest, left, final.sigma)
-    return whole if whole.fall - left.fall >= SAME_SHARE * worth else None
+    taken = whole.fall - left.fall
+    price = (len(final.u) - len(rest.u)) * float(np.log(final.whitened.size))
+    much = worth - taken - price > SUSPICIOUS
+    worthier = WORTHIER * (worth - price) > worth_of(left, final)
+    return None if taken < SAME_SHARE * worth and (much or worthier) else whole
