@@ -1,14 +1,14 @@
 """How much a free-form force that depends on one variable explains of what a fit leaves."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.bases import UNIT_SHARE, Basis
 from diffbot_sim.identification.evidence import block_gain, sandwich, wald_p
-from diffbot_sim.identification.fitting import GAIN_LIMITS, GAIN_PRIOR, Fit, whitened
+from diffbot_sim.identification.fitting import Fit, joint_bounds, joint_prior, whitened
 from diffbot_sim.identification.minimisation import Prior, derivatives, minimise
 from diffbot_sim.identification.parallel import each
 from diffbot_sim.identification.robust import huber
@@ -37,7 +37,7 @@ class Dependence:
     fall: of the deviance, to first order until it is realised; amounts: coefficients of the basis
     in its units; adaptation: by how much u and gains shift with them, once realised; spread:
     covariance of the amounts, once realised with the parameters as they are; p_block: as for
-    effects; p_folds: the chance of what amounts from other parts of the runs predict of each part.
+    effects.
     """
 
     basis: Basis
@@ -46,7 +46,6 @@ class Dependence:
     adaptation: Array
     spread: Array
     p_block: float
-    p_folds: float
 
     @property
     def p_value(self) -> float:
@@ -68,43 +67,37 @@ def explained_by(screen: Screen, basis: Basis) -> Dependence:
         np.zeros(len(screen.fit.u) + len(screen.fit.gains)),
         spread,
         wald_p(amounts, spread),
-        _folds_chance(flat, screen.residual),
     )
 
 
-def realised(fit: Fit, dependence: Dependence) -> Dependence:
-    """Return a dependence fitted together with the free parameters and the noise model.
+def realised(fit: Fit, basis: Basis) -> Dependence:
+    """Return a free form fitted together with the free parameters and the noise model.
 
     First order promises too much where these would have to move far, as friction parameters do
     beside a free form of the friction.
     """
-    basis, size = dependence.basis, len(fit.u) + len(fit.gains)
+    known, (low, high) = joint_prior(fit.space), joint_bounds(fit.space)
+    none, units = np.zeros(basis.size), np.full(basis.size, 1.0 / UNIT_SHARE)
 
     def errors(at: Array) -> Array:
         return acting(fit, basis, at, fit.stretches)
 
-    units = np.full(basis.size, 1.0 / UNIT_SHARE)
     prior = Prior(
-        np.concatenate([fit.space.prior(), GAIN_PRIOR, np.zeros(basis.size)]),
-        np.concatenate([fit.prior_information**-0.5, TYPICAL * units]),
+        np.concatenate([known.centre, none]), np.concatenate([known.deviation, TYPICAL * units])
     )
-    (low, high), (least, most) = fit.space.bounds(), GAIN_LIMITS
-    bounds = (
-        np.concatenate([low, least, -MOST * units]),
-        np.concatenate([high, most, MOST * units]),
-    )
-    start = np.concatenate([fit.u, fit.gains, np.zeros(basis.size)])
+    bounds = np.concatenate([low, -MOST * units]), np.concatenate([high, MOST * units])
+    start, size = np.concatenate([fit.u, fit.gains, none]), len(known.centre)
     point, _ = minimise(errors, start, prior, bounds, EVALUATIONS, rounds=1)
     left = errors(point)
     slopes = derivatives(errors, point, left).reshape(-1, len(point))
-    known = prior.deviation**-2.0
-    joint = sandwich(slopes, left.ravel(), known)[size:, size:]
-    return replace(
-        dependence,
+    information = prior.deviation**-2.0
+    joint = sandwich(slopes, left.ravel(), information)[size:, size:]
+    return Dependence(
+        basis,
         fall=max(float(huber(fit.whitened).sum() - huber(left).sum()), 0.0),
         amounts=point[size:],
         adaptation=(point - start)[:size],
-        spread=sandwich(slopes[:, size:], left.ravel(), known[size:]),
+        spread=sandwich(slopes[:, size:], left.ravel(), information[size:]),
         p_block=wald_p(point[size:], joint),
     )
 
@@ -127,12 +120,14 @@ def sensitivity(fit: Fit, stretches: Sequence[Stretch], basis: Basis) -> Array:
     return np.stack(each(column, range(basis.size)), axis=-1)
 
 
-def _folds_chance(flat: Array, errors: Array) -> float:
-    """Return the chance of the fall of the loss in each part of a run, by the other parts.
+def folds_chance(screen: Screen, basis: Basis) -> float:
+    """Return the chance of what amounts from other parts of the runs predict of each part.
 
-    Parts lie between each other: where a robot never comes back, or time has gone, the end of a
-    run cannot confirm what the beginning says.
+    To first order. Parts lie between each other: where a robot never comes back, or time has gone,
+    the end of a run cannot confirm what the beginning says.
     """
+    slopes = sensitivity(screen.fit, screen.fit.stretches, basis)
+    flat, errors = screen.project(slopes).reshape(-1, basis.size), screen.residual
     columns = flat / np.maximum(np.linalg.norm(flat, axis=0), 1e-12)
     parts = np.arange(len(errors)) * PARTS // len(errors) % FOLDS
     inside = [(columns[parts == fold], errors[parts == fold]) for fold in range(FOLDS)]

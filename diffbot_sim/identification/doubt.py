@@ -7,7 +7,7 @@ from math import inf
 import numpy as np
 
 from diffbot_sim.identification.bases import again
-from diffbot_sim.identification.dependence import Dependence, explained_by, realised, worth_of
+from diffbot_sim.identification.dependence import Dependence, realised, worth_of
 from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.screening import Screen
@@ -119,9 +119,7 @@ def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence
 
 def _acting_in(fit: Fit, like: Dependence, sigma: Array) -> Dependence:
     """Return the free form of a dependence as it really acts in a fit, at a given scale."""
-    scaled = replace(fit, sigma=sigma)
-    basis = again(like.basis, scaled, fit.stretches)
-    return realised(scaled, explained_by(Screen(scaled), basis))
+    return realised(replace(fit, sigma=sigma), again(like.basis, fit, fit.stretches))
 
 
 def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:

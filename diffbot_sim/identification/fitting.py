@@ -52,8 +52,7 @@ class Fit:
     @property
     def prior_information(self) -> Array:
         """What the weak prior knows of u and then of the gains: the inverse variances."""
-        gains = np.full(len(self.gains), PRIOR_DEVIATION)
-        return np.asarray(np.concatenate([self.space.deviations(), gains]) ** -2.0)
+        return np.asarray(joint_prior(self.space).deviation ** -2.0)
 
     def deviance(self, sigma: Array) -> float:
         """Return twice the robust cost at a given scale."""
@@ -124,6 +123,20 @@ def fit_with_noise_held(
     return Fit(space, stretches, point, gains, sigma)
 
 
+def joint_prior(space: Space) -> Prior:
+    """Return the weak prior of u and then of the gains."""
+    return Prior(
+        np.concatenate([space.prior(), GAIN_PRIOR]),
+        np.concatenate([space.deviations(), np.full(len(GAIN_PRIOR), PRIOR_DEVIATION)]),
+    )
+
+
+def joint_bounds(space: Space) -> tuple[Array, Array]:
+    """Return lowest and highest values of u and then of the gains."""
+    (low, high), (least, most) = space.bounds(), GAIN_LIMITS
+    return np.concatenate([low, least]), np.concatenate([high, most])
+
+
 def fit_prediction(
     space: Space, stretches: tuple[Stretch, ...], start: Array, gains: Array
 ) -> Fit:
@@ -133,12 +146,7 @@ def fit_prediction(
     def errors(at: Array) -> Array:
         return whitened(stretches, space.model(at[:size]), at[size:], UNIT)
 
-    low, high = space.bounds()
-    bounds = (np.concatenate([low, GAIN_LIMITS[0]]), np.concatenate([high, GAIN_LIMITS[1]]))
-    prior = Prior(
-        np.concatenate([space.prior(), GAIN_PRIOR]),
-        np.concatenate([space.deviations(), np.full(len(gains), PRIOR_DEVIATION)]),
-    )
     begin = np.concatenate([start, gains])
+    prior, bounds = joint_prior(space), joint_bounds(space)
     point, sigma = minimise(errors, begin, prior, bounds, EVALUATIONS, ROUNDS)
     return Fit(space, stretches, point[:size], point[size:], sigma)

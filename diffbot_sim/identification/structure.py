@@ -11,6 +11,7 @@ from diffbot_sim.identification.dependence import (
     acting,
     chance_of,
     explained_by,
+    folds_chance,
     realised,
     worth_of,
 )
@@ -55,8 +56,8 @@ def find_dependence(screen: Screen, held_out: Sequence[Stretch]) -> Dependence |
     """
     tried = dependences(screen)
     promising = [d for d in tried[:FOLLOWED] if beyond_chance(d, len(tried))]
-    fitted = [realised(screen.fit, dependence) for dependence in promising]
-    found = [d for d in fitted if _is_beyond_doubt(screen.fit, d, held_out, len(tried))]
+    fitted = [realised(screen.fit, dependence.basis) for dependence in promising]
+    found = [d for d in fitted if _is_beyond_doubt(screen, d, held_out, len(tried))]
     worths = [worth_of(dependence, screen.fit) for dependence in found]
     most = max(worths, default=0.0)
     near = [d for d, w in zip(found, worths, strict=True) if w >= min(ALMOST * most, most)]
@@ -69,12 +70,13 @@ def beyond_chance(dependence: Dependence, tried: int) -> bool:
 
 
 def _is_beyond_doubt(
-    fit: Fit, dependence: Dependence, held_out: Sequence[Stretch], tried: int
+    screen: Screen, dependence: Dependence, held_out: Sequence[Stretch], tried: int
 ) -> bool:
     if not beyond_chance(dependence, tried) or dependence.p_block > EITHER_LEVEL:
         return False
-    chance = _held_out_chance(fit, dependence, held_out)
-    return lasting(dependence.p_block, 2.0 * min(chance, dependence.p_folds))
+    chance = _held_out_chance(screen.fit, dependence, held_out)
+    elsewhere = 2.0 * min(chance, folds_chance(screen, dependence.basis))
+    return lasting(dependence.p_block, elsewhere)
 
 
 def lasting(p_block: float, elsewhere: float) -> bool:
