@@ -126,6 +126,10 @@ def _friction_drift(make: Make, size: float, c: Chance) -> dict[str, float]:
     return [warmed, {'wear': 0.35 * size / DURATION}][c.law % 2]
 
 
+def _effective_track(make: Make, size: float, c: Chance) -> dict[str, float]:
+    return {'half': make.plant.half * (1.0 + 0.05 * size * c.sign)}
+
+
 def _speed_bump(make: Make, size: float, c: Chance) -> dict[str, float]:
     speed = 0.4 * make.terminal
     force = 1.5 * size * make.plant.coulomb
@@ -161,6 +165,7 @@ EFFECTS: dict[str, Law] = {
     'com_offset': _com_offset,
     'wheel_ripple': _wheel_ripple,
     'friction_drift': _friction_drift,
+    'effective_track': _effective_track,
 }
 FOREIGN: dict[str, Law] = {
     'speed_bump': _speed_bump,

@@ -29,6 +29,7 @@ EXAMPLES = (
     'quadratic_drag',
     'payload_change',
     'power_limit',
+    'effective_track',
 )
 RIPPLE = ('order', 'right_cos', 'right_sin', 'left_cos', 'left_sin')
 # Where three scales from neutral are no size that anyone would meet.

@@ -77,7 +77,7 @@ def bases(fit: Fit, stretches: Sequence[Stretch]) -> list[Basis]:
     seen = views(fit, stretches)
     unit = UNIT_SHARE * max(float(np.abs(s.run.commands.force).max()) for s in stretches)
     return [
-        Basis(axis, name, grid, unit, fit.model.robot.half_separation, columns)
+        Basis(axis, name, grid, unit, fit.model.half_separation, columns)
         for name, grid, columns in _evaluated(seen)
         for axis in VARIABLES[name].axes
     ]

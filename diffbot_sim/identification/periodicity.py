@@ -51,7 +51,7 @@ def rates(fit: Fit) -> tuple[float, ...]:
 
 def _by_wheel(fit: Fit) -> tuple[Array, Array]:
     """Return wheel angles [rad] and the wheels' share of the innovations, columns right, left."""
-    b, r = fit.model.robot.half_separation, fit.model.robot.wheel_radius
+    b, r = fit.model.half_separation, fit.model.robot.wheel_radius
     mix = np.array([[1.0, 1.0], [b, -b]])
     angles, errors = [], []
     for stretch, found in zip(fit.stretches, predictions(fit, fit.stretches), strict=True):

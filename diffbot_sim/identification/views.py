@@ -43,7 +43,7 @@ class View:
 
     @property
     def _mix(self) -> Array:
-        b = self.fit.model.robot.half_separation
+        b = self.fit.model.half_separation
         return np.array([[1.0, 1.0], [b, -b]])
 
     @cached_property

@@ -1,6 +1,7 @@
 """The model: robot, wheel friction and effects, frozen."""
 
 from dataclasses import dataclass, field, replace
+from math import prod
 
 import numpy as np
 
@@ -35,10 +36,15 @@ class Model:
         """Return a model that lacks the effect of this name."""
         return replace(self, effects=tuple(e for e in self.effects if e.name != name))
 
+    @property
+    def half_separation(self) -> float:
+        """Distance b from the middle to a wheel [m], as effects let it act."""
+        return self.robot.half_separation * prod(effect.track for effect in self.effects)
+
     def pack(self) -> Array:
         """Return the numbers that the compiled code reads: m, J, b, r, the law, the effects."""
         robot, law = self.robot, self.friction.law()
         rubbing = (law.static, law.coulomb, law.excess, law.viscous, law.stribeck)
-        body = (robot.mass, robot.inertia, robot.half_separation, robot.wheel_radius)
+        body = (robot.mass, robot.inertia, self.half_separation, robot.wheel_radius)
         tail = [value for effect in self.effects for value in effect.values]
         return np.array([*body, *rubbing, *tail], dtype=np.float64)

@@ -54,7 +54,7 @@ class Plant:
 
     @model.setter
     def model(self, model: Model) -> None:
-        if model.robot.wheel_separation != self._model.robot.wheel_separation:
+        if model.half_separation != self._model.half_separation:
             self._z[5:] = initial_vector(model, State(0.0, 0.0, 0.0, *self.twist))[5:]
         self._install(model)
 

@@ -73,7 +73,7 @@ def workspace() -> tuple[Modes, Array]:
 
 def initial_vector(model: Model, start: State) -> Array:
     """Return the state vector z of a start: pose, wheel angles, wheel speeds."""
-    b, r = model.robot.half_separation, model.robot.wheel_radius
+    b, r = model.half_separation, model.robot.wheel_radius
     ways, speeds = (
         wheel_speeds(start.travelled, start.turned, b),
         wheel_speeds(start.v, start.omega, b),

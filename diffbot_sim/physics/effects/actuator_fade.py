@@ -44,6 +44,7 @@ class ActuatorFade(Effect):
     source = 'discharge of batteries: Shepherd (1965), here its straight and exponential parts'
     stage = Stage.ACTUATOR
     kernel = fade
+    is_of_time = True
     guesses = ((0.001, 0.0), (-0.001, 0.0), (0.01, 0.02), (-0.01, 0.02))
     shape = ('bend',)
     excitation = 'the same manoeuvres early and late in a long run'

@@ -37,6 +37,7 @@ class Effect:
     dissipative: whether it can only take energy away.
     is_sought: whether identification looks for it; False for mere descriptions, and for what takes
     the place of other effects in too many drives. Declared, it acts all the same.
+    is_of_time: whether it counts time from the start of the run.
     guesses: values of the parameters from which fits start.
     shape: names of parameters that mean nothing while the others are neutral (a moment, a period).
     excitation: the drive that shows it.
@@ -51,6 +52,7 @@ class Effect:
     update: ClassVar[Callable[..., Any] | None] = None
     dissipative: ClassVar[bool] = False
     is_sought: ClassVar[bool] = True
+    is_of_time: ClassVar[bool] = False
     guesses: ClassVar[tuple[tuple[Any, ...], ...]]
     shape: ClassVar[tuple[str, ...]] = ()
     excitation: ClassVar[str]
@@ -69,6 +71,11 @@ class Effect:
     def delay(self) -> float:
         """By how much commands come late [s]."""
         return 0.0
+
+    @property
+    def track(self) -> float:
+        """By what factor the wheels are farther apart than declared."""
+        return 1.0
 
     @property
     def moments(self) -> tuple[float, ...]:

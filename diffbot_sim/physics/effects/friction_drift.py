@@ -30,6 +30,7 @@ class FrictionDrift(Effect):
     source = 'Bittencourt, Gunnarsson (2012), joint friction as grease warms up'
     stage = Stage.WHEEL_FRICTION
     kernel = drift
+    is_of_time = True
     guesses = tuple((d, d, tau) for tau in (10.0, 60.0, 300.0) for d in (-0.3, 0.3))
     shape = ('time_constant',)
     excitation = 'the same speeds early and late in a run of several time constants'

@@ -43,6 +43,7 @@ class PayloadChange(Effect):
     )
     stage = Stage.INERTIA
     kernel = loaded
+    is_of_time = True
     guesses = ((2.0, 0.05, 30.0), (-2.0, -0.05, 30.0))
     shape = ('moment',)
     excitation = 'the same starts and stops before and after the load changes'
