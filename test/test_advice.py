@@ -17,7 +17,7 @@ def selection(*trials: Trial) -> Selection:
 
 
 def tried(kind, outcome: str) -> Trial:
-    return Trial(kind, None, Evidence(0.0, 1.0, 1.0, 0.0, 1.0), outcome)
+    return Trial(kind, None, Evidence(0.0, 1.0, 1.0, 0.0, 1.0, 1.0), outcome)
 
 
 def test_effect_that_the_drive_does_not_show_asks_for_a_drive() -> None:

@@ -5,13 +5,16 @@ from functools import cache
 import pytest
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
+from diffbot_sim.identification.bases import bases
 from diffbot_sim.identification.coordinates import Space
+from diffbot_sim.identification.dependence import explained_by
 from diffbot_sim.identification.doubt import doubt
 from diffbot_sim.identification.evidence import Evidence
 from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
+from diffbot_sim.identification.guards import lasting
+from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.selection import Selection
 from diffbot_sim.identification.stretches import Stretch, split
-from diffbot_sim.identification.structure import lasting
 from diffbot_sim.identification.trials import CHANCE, OUTDONE, SUPPORTED, Trial
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.payload_change import PayloadChange
@@ -29,8 +32,16 @@ def clean() -> tuple[Fit, tuple[Stretch, ...]]:
 def answer_after(outcome: str, delta_bic: float):
     """Return what doubt says when this is how an effect fared that did not enter."""
     fit, held_out = clean()
-    trial = Trial(PayloadChange, fit, Evidence(delta_bic, 0.0, 0.05, 0.1, 0.2), outcome)
+    trial = Trial(PayloadChange, fit, Evidence(delta_bic, 0.0, 0.05, 0.1, 0.2, 0.2), outcome)
     return doubt(Selection(fit, fit, (trial,), {}, {}, {}), held_out)
+
+
+def test_strongest_of_many_rhythms_is_no_surprise() -> None:
+    fit, _ = clean()
+    tried = [explained_by(Screen(fit), b) for b in bases(fit, fit.stretches)]
+    rhythms = [dependence for dependence in tried if dependence.basis.variable == 'rhythm']
+    assert rhythms
+    assert all(dependence.p_block > 0.05 for dependence in rhythms)
 
 
 def test_refused_effect_that_explains_too_much_for_chance_is_no_silence() -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from diffbot_sim.identification.minimisation import Prior, minimise
+from diffbot_sim.identification.minimisation import Prior, derivatives, minimise
 
 FAR = (np.full(2, -9.0), np.full(2, 9.0))
 VAGUE = Prior(np.zeros(2), np.full(2, 1e6))
@@ -34,6 +34,18 @@ def test_no_point_is_asked_for_twice() -> None:
 
     minimise(errors, np.array([-1.2, 1.0]), VAGUE, FAR, evaluations=20, rounds=3)
     assert len(set(asked)) == len(asked)
+
+
+@pytest.mark.parametrize('side', [-1.0, 1.0])
+def test_jump_beside_a_point_is_no_slope(side) -> None:
+    def errors(at):
+        found = NOISE * at
+        found[7] += 0.5 * (side * (at[0] - 1.0) > 1e-9)  # a wheel that then breaks away
+        return found
+
+    point = np.ones(2)
+    slopes = derivatives(errors, point, errors(point))
+    assert slopes[..., 0] == pytest.approx(NOISE * [1.0, 0.0], abs=1e-6)
 
 
 def test_scale_is_that_of_the_errors_and_events_count_little() -> None:

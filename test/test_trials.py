@@ -1,9 +1,12 @@
 """What lets an effect in."""
 
+from dataclasses import replace
+from math import nan
+
 from diffbot_sim.identification.evidence import Evidence
 from diffbot_sim.identification.trials import SUPPORTED, judge
 
-CLEAR = Evidence(60.0, 1e-15, 0.004, 0.05, 0.001)
+CLEAR = Evidence(60.0, 1e-15, 0.004, 0.05, 0.001, 0.001)
 
 
 def test_effect_with_all_evidence_enters() -> None:
@@ -15,5 +18,24 @@ def test_best_of_many_shapes_must_be_surer() -> None:
 
 
 def test_effect_that_does_not_predict_held_out_data_stays_outside() -> None:
-    vague = Evidence(60.0, 1e-15, 0.004, 0.05, 0.4)
+    vague = Evidence(60.0, 1e-15, 0.004, 0.05, 0.4, 0.4)
     assert judge(vague, tried=16) == 'does not predict held-out data better'
+
+
+def test_effect_that_parts_of_a_run_tell_of_each_other_needs_no_more_from_the_held_out_rest() -> (
+    None
+):
+    short = Evidence(60.0, 1e-15, 0.004, 0.001, 0.4, 0.001)
+    assert judge(short, tried=16) == SUPPORTED
+    assert judge(short.of_best(40), tried=16) != SUPPORTED
+
+
+def test_law_of_time_must_prove_right_at_the_end() -> None:
+    wrong = Evidence(500.0, 1e-50, 1e-9, 0.04, 0.6, nan)
+    assert judge(wrong, tried=16) == 'does not predict held-out data better'
+    assert judge(replace(wrong, p_held_out=0.04), tried=16) == SUPPORTED
+
+
+def test_one_guard_may_be_less_sure_where_the_other_is_beyond_doubt() -> None:
+    assert judge(replace(CLEAR, p_block=0.02, p_folds=1e-5), tried=16) == SUPPORTED
+    assert judge(replace(CLEAR, p_block=0.06, p_folds=1e-5), tried=16) != SUPPORTED

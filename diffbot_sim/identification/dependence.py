@@ -7,9 +7,9 @@ import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.bases import UNIT_SHARE, Basis
-from diffbot_sim.identification.evidence import block_gain, sandwich, wald_p
+from diffbot_sim.identification.evidence import sandwich, wald_p
 from diffbot_sim.identification.fitting import Fit, joint_bounds, joint_prior, whitened
-from diffbot_sim.identification.minimisation import Prior, derivatives, minimise
+from diffbot_sim.identification.minimisation import Prior, derivatives, flatter, minimise
 from diffbot_sim.identification.parallel import each
 from diffbot_sim.identification.robust import huber
 from diffbot_sim.identification.screening import Screen
@@ -22,12 +22,6 @@ EVALUATIONS = 10
 # The most that an amount may be, and what it may well be, in largest commands: where parameters
 # of the model can do the same, they do.
 MOST, TYPICAL = 1.0, 0.1
-# Parts of the runs, and into how many groups of parts they are dealt in turn.
-PARTS, FOLDS = 40, 5
-# Keeps functions apart that the other parts of a run hardly show.
-RIDGE = 1e-6
-# Largest fall of the loss that one held-out sample may stand for.
-MOST_OF_SAMPLE = 4.0
 
 
 @dataclass(frozen=True)
@@ -37,7 +31,7 @@ class Dependence:
     fall: of the deviance, to first order until it is realised; amounts: coefficients of the basis
     in its units; adaptation: by how much u and gains shift with them, once realised; spread:
     covariance of the amounts, once realised with the parameters as they are; p_block: as for
-    effects.
+    effects, like p_value for the best of all that the form was looked at with.
     """
 
     basis: Basis
@@ -50,8 +44,12 @@ class Dependence:
     @property
     def p_value(self) -> float:
         """The chance of such a fall."""
-        looked_at = VARIABLES[self.basis.variable].form.looked_at
-        return looked_at * float(stats.chi2.sf(self.fall, len(self.amounts)))
+        return _of_best(self.basis, float(stats.chi2.sf(self.fall, len(self.amounts))))
+
+
+def _of_best(basis: Basis, chance: float) -> float:
+    """Return the chance of the best of all that a form was looked at with: rates, say."""
+    return min(1.0, VARIABLES[basis.variable].form.looked_at * chance)
 
 
 def explained_by(screen: Screen, basis: Basis) -> Dependence:
@@ -66,7 +64,7 @@ def explained_by(screen: Screen, basis: Basis) -> Dependence:
         amounts,
         np.zeros(len(screen.fit.u) + len(screen.fit.gains)),
         spread,
-        wald_p(amounts, spread),
+        _of_best(basis, wald_p(amounts, spread)),
     )
 
 
@@ -98,7 +96,7 @@ def realised(fit: Fit, basis: Basis) -> Dependence:
         amounts=point[size:],
         adaptation=(point - start)[:size],
         spread=sandwich(slopes[:, size:], left.ravel(), information[size:]),
-        p_block=wald_p(point[size:], joint),
+        p_block=_of_best(basis, wald_p(point[size:], joint)),
     )
 
 
@@ -113,38 +111,14 @@ def sensitivity(fit: Fit, stretches: Sequence[Stretch], basis: Basis) -> Array:
     """Return the derivative of whitened errors by the amounts of a basis, shape (n, 2, q)."""
     base = whitened(stretches, fit.model, fit.gains, fit.sigma)
 
+    def pushed(index: int, share: float) -> Array:
+        pushes = [share * basis.push(place, index) for place in range(len(stretches))]
+        return (whitened(stretches, fit.model, fit.gains, fit.sigma, pushes) - base) / share
+
     def column(index: int) -> Array:
-        pushes = [basis.push(place, index) for place in range(len(stretches))]
-        return whitened(stretches, fit.model, fit.gains, fit.sigma, pushes) - base
+        return flatter(pushed(index, 1.0), pushed(index, -1.0))
 
     return np.stack(each(column, range(basis.size)), axis=-1)
-
-
-def folds_chance(screen: Screen, basis: Basis) -> float:
-    """Return the chance of what amounts from other parts of the runs predict of each part.
-
-    To first order. Parts lie between each other: where a robot never comes back, or time has gone,
-    the end of a run cannot confirm what the beginning says.
-    """
-    slopes = sensitivity(screen.fit, screen.fit.stretches, basis)
-    flat, errors = screen.project(slopes).reshape(-1, basis.size), screen.residual
-    columns = flat / np.maximum(np.linalg.norm(flat, axis=0), 1e-12)
-    parts = np.arange(len(errors)) * PARTS // len(errors) % FOLDS
-    inside = [(columns[parts == fold], errors[parts == fold]) for fold in range(FOLDS)]
-    squares = np.array([c.T @ c for c, _ in inside])
-    products = np.array([c.T @ e for c, e in inside])
-    gain = np.empty(len(errors))
-    for fold, (c, e) in enumerate(inside):
-        others = squares.sum(axis=0) - squares[fold] + RIDGE * np.eye(columns.shape[1])
-        amounts = np.linalg.solve(others, products[fold] - products.sum(axis=0))
-        gain[parts == fold] = huber(e) - huber(e + c @ amounts)
-    return chance_of(gain.reshape(-1, 2))
-
-
-def chance_of(gain: Array) -> float:
-    """Return the chance of gains of samples, shape (n, 2)."""
-    # Where a wheel starts or stops a small force decides much: no sample may say more than this.
-    return block_gain(np.clip(gain, -MOST_OF_SAMPLE, MOST_OF_SAMPLE).sum(axis=1))[1]
 
 
 def worth_of(dependence: Dependence, fit: Fit) -> float:

@@ -9,16 +9,12 @@ import numpy as np
 from diffbot_sim.identification.bases import again
 from diffbot_sim.identification.dependence import Dependence, realised, worth_of
 from diffbot_sim.identification.fitting import Fit
+from diffbot_sim.identification.guards import BLOCK_LEVEL
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.selection import Selection
 from diffbot_sim.identification.stretches import Stretch
-from diffbot_sim.identification.structure import (
-    BLOCK_LEVEL,
-    dependences,
-    describe,
-    find_dependence,
-)
+from diffbot_sim.identification.structure import dependences, describe, find_dependence
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
 

@@ -2,19 +2,22 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import isnan, nan
 
 import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.fitting import Fit, whitened
+from diffbot_sim.identification.gains import block_gain, folds_chance
 from diffbot_sim.identification.predictor import MAX_STEP
+from diffbot_sim.identification.projection import Projection
 from diffbot_sim.identification.robust import huber, influence
 from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.records import Array
 
 # Blocks that count as independent; each is much longer than any correlation of innovations.
-BLOCKS, HELD_OUT_BLOCKS = 40, 20
+BLOCKS = 40
 
 
 @dataclass(frozen=True)
@@ -31,11 +34,19 @@ class Evidence:
     p_block: float
     held_out_gain: float
     p_held_out: float
+    p_folds: float
+
+    @property
+    def p_elsewhere(self) -> float:
+        """The chance of what it predicts of data that it was not fitted to."""
+        looks = [p for p in (self.p_held_out, self.p_folds) if not isnan(p)]
+        return min(1.0, len(looks) * min(looks, default=1.0))
 
     def of_best(self, looks: int) -> 'Evidence':
         """Return the evidence for a structure that was the best of so many."""
-        p_value, p_block = (min(1.0, looks * p) for p in (self.p_value, self.p_block))
-        return replace(self, p_value=p_value, p_block=p_block)
+        chances = (self.p_value, self.p_block, self.p_folds)
+        p_value, p_block, p_folds = np.minimum(1.0, looks * np.array(chances)).tolist()
+        return replace(self, p_value=p_value, p_block=p_block, p_folds=p_folds)
 
 
 def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
@@ -44,13 +55,20 @@ def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
     ratio = max(small.deviance(large.sigma) - large.deviance(large.sigma), 0.0)
     samples = large.whitened.size
     gain, chance = held_out_gain(small, large, held_out)
+    amounts, shapes = _added(small, large)
     return Evidence(
         delta_bic=ratio - added * float(np.log(samples)),
         p_value=float(stats.chi2.sf(ratio, added)),
-        p_block=wald(large, *_added(small, large)),
+        p_block=wald(large, amounts, shapes),
         held_out_gain=gain,
         p_held_out=chance,
+        p_folds=nan if _adds_law_of_time(small, large) else _folds_chance(large, amounts, shapes),
     )
+
+
+def _adds_law_of_time(small: Fit, large: Fit) -> bool:
+    """Say whether a law was added that must prove right at the end: parts around prove nothing."""
+    return any(kind.is_of_time for kind in large.space.kinds if kind not in small.space.kinds)
 
 
 def _added(small: Fit, large: Fit) -> tuple[list[int], list[int]]:
@@ -88,15 +106,16 @@ def held_out_gain(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> tuple[
     return gain, min(1.0, len(looks) * chance)
 
 
-def block_gain(gain: Array) -> tuple[float, float]:
-    """Return the mean of gains per sample and the p-value of its being above zero.
+def _folds_chance(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
+    """Return the chance of what some amounts predict of each part of the runs from others.
 
-    Signed ranks over blocks: a single block with a large gain, or loss, cannot decide.
+    To first order around the fit, all else adapted to the whole; shapes are held.
     """
-    blocks = [block.mean() for block in np.array_split(gain, HELD_OUT_BLOCKS)]
-    if not np.any(blocks):
-        return 0.0, 1.0
-    return float(gain.mean()), float(stats.wilcoxon(blocks, alternative='greater').pvalue)
+    jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
+    free = Projection(np.delete(jacobian, [*amounts, *shapes], axis=1))
+    columns, errors = free.rest(jacobian[:, amounts]), free.rest(influence(fit.whitened)).ravel()
+    departure = (fit.u - fit.space.prior())[amounts]
+    return folds_chance(errors - columns @ departure, columns)
 
 
 def sandwich(jacobian: Array, errors: Array, known: Array) -> Array:

@@ -12,6 +12,8 @@ from diffbot_sim.records import Array
 
 # Step of finite differences, in coordinates of order one.
 DIFFERENCE = 1e-5
+# A slope so many times as steep as all but a hundredth may be a jump: a wheel just breaks away.
+JUMP, ALL_BUT = 30.0, 0.99
 # A scale that changes by less than this share between two rounds has settled.
 SETTLED = 0.002
 # Errors (n, 2) at a point (p,).
@@ -26,14 +28,33 @@ class Prior(NamedTuple):
 
 
 def derivatives(errors: Errors, at: Array, base: Array) -> Array:
-    """Return derivatives of errors by forward differences, on all cores, shape (n, 2, p)."""
+    """Return derivatives of errors by differences, on all cores, shape (n, 2, p).
+
+    Where a slope may be a jump, both sides are looked at.
+    """
+
+    def difference(index: int, step: float) -> Array:
+        moved = at.copy()
+        moved[index] += step
+        return np.asarray((errors(moved) - base) / step)
 
     def column(index: int) -> Array:
-        moved = at.copy()
-        moved[index] += DIFFERENCE
-        return np.asarray((errors(moved) - base) / DIFFERENCE)
+        slopes = difference(index, DIFFERENCE)
+        size = np.abs(slopes)
+        if size.max() <= JUMP * np.quantile(size, ALL_BUT):
+            return slopes
+        return flatter(slopes, difference(index, -DIFFERENCE))
 
     return np.stack(each(column, range(len(at))), axis=-1)
+
+
+def flatter(one: Array, other: Array) -> Array:
+    """Return at each sample the flatter of its slopes on both sides of a point.
+
+    Errors jump where the least change decides whether a wheel breaks away. A jump lies on one
+    side and is no slope: one such sample would outweigh all the rest.
+    """
+    return np.where(np.abs(one) <= np.abs(other), one, other)
 
 
 def minimise(

@@ -10,8 +10,10 @@ from scipy import stats
 
 from diffbot_sim.identification.coordinates import Space, point_of
 from diffbot_sim.identification.fitting import Fit, whitened
+from diffbot_sim.identification.minimisation import flatter
 from diffbot_sim.identification.parallel import each
 from diffbot_sim.identification.periodicity import wheel_orders
+from diffbot_sim.identification.projection import Projection
 from diffbot_sim.identification.robust import influence
 from diffbot_sim.identification.views import views
 from diffbot_sim.physics.effects import Effect, Excitation
@@ -50,10 +52,7 @@ class Screen:
     def __init__(self, fit: Fit) -> None:
         self.fit = fit
         jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
-        size = np.linalg.norm(jacobian, axis=0)
-        free = jacobian[:, size > 1e-9] / size[size > 1e-9]
-        self._basis = np.linalg.svd(free, full_matrices=False)[0]
-        self._jacobian = jacobian
+        self._free, self._jacobian = Projection(jacobian), jacobian
         self._errors = self.project(influence(fit.whitened))
         self._scores = dict[type[Effect], Score]()
 
@@ -70,9 +69,7 @@ class Screen:
 
     def project(self, values: Array) -> Array:
         """Take out of values, shape (n, 2) or (n, 2, q), what the free parameters explain."""
-        flat = values.reshape(self._basis.shape[0], -1)
-        rest = flat - self._basis @ (self._basis.T @ flat)
-        return np.asarray(rest.reshape(values.shape))
+        return self._free.rest(values)
 
     def explained(self, sensitivity: Array) -> tuple[float, Array, Array]:
         """Return the fall of the squared error, the coefficients, the projected sensitivity."""
@@ -126,7 +123,7 @@ class Screen:
         ]
         point = np.concatenate([self.fit.u, neutral])
         turned = [i for i, spec in enumerate(kind.specs()) if spec.name not in kind.shape]
-        slopes = np.stack([self._change(space, point, size + i) for i in turned], axis=-1)
+        slopes = np.stack([self._slope(space, point, size + i) for i in turned], axis=-1)
         fall, amount, flat = self.explained(slopes)
         change = np.zeros(len(point))
         change[[size + i for i in turned]] = amount
@@ -151,10 +148,17 @@ class Screen:
     def _errors_at(self, space: Space, point: Array) -> Array:
         return whitened(self.fit.stretches, space.model(point), self.fit.gains, self.fit.sigma)
 
-    def _change(self, space: Space, neutral: Array, index: int) -> Array:
+    def _slope(self, space: Space, neutral: Array, index: int) -> Array:
+        """Return the slope of the errors along an amount, of both sides where both are valid."""
+        one = self._difference(space, neutral, index, AMOUNT)
+        if neutral[index] - AMOUNT < space.bounds()[0][index]:
+            return one
+        return flatter(one, self._difference(space, neutral, index, -AMOUNT))
+
+    def _difference(self, space: Space, neutral: Array, index: int, step: float) -> Array:
         moved = neutral.copy()
-        moved[index] += AMOUNT
-        return np.asarray((self._errors_at(space, moved) - self.fit.whitened) / AMOUNT)
+        moved[index] += step
+        return np.asarray((self._errors_at(space, moved) - self.fit.whitened) / step)
 
     def _best(self, space: Space, options: Sequence['_Option']) -> tuple[Array, ...]:
         """Return the point that promises most, and of the next ones that with the least error."""

@@ -14,7 +14,7 @@ from diffbot_sim.physics.effects import Effect
 
 # Structures closer than this in BIC cannot be told apart.
 INDISTINGUISHABLE = 10.0
-# What explains less than this share of a found effect's worth to first order is no rival of it.
+# What explains less than this share of what a found effect does, to first order, is no rival.
 RIVAL_SHARE = 0.5
 MOST_EFFECTS = 4
 
@@ -73,7 +73,7 @@ def select(
     chosen = set(without)
     trials = sorted(last.values(), key=lambda t: (t.kind.name in chosen, t.evidence.delta_bic))
     alternatives = {
-        name: _alternatives(final, _screened(rest, path), kinds, progress)
+        name: _alternatives(final, name, _screened(rest, path), kinds, progress)
         for name, rest in without.items()
     }
     return Selection(base, final, tuple(reversed(trials)), without, support, alternatives)
@@ -84,19 +84,21 @@ def _prune(
 ) -> tuple[Fit, dict[str, Fit], dict[str, Evidence]]:
     """Take out, one by one, effects that later ones have made needless.
 
-    path: the fits of the forward search; what it has fitted is not fitted again.
+    path: the fits of the forward search. Each is asked once more from where the larger one led:
+    an effect must not live off a poor end of the fit that lacks it.
     """
-    known = {frozenset(fit.space.kinds): fit for fit in path}
+    known = {frozenset(fit.space.kinds): (fit,) for fit in path}
     fit = path[-1]
     while True:
         support, smaller = dict[str, Evidence](), dict[str, Fit]()
         for kind in fit.space.kinds:
             rest = frozenset(fit.space.kinds) - {kind}
-            if rest not in known:
-                progress(f'trying without {kind.name}')
-                known[rest] = reduce(fit, kind.name)
-            smaller[kind.name] = known[rest]
-            support[kind.name] = compare(known[rest], fit, held_out)
+            progress(f'trying without {kind.name}')
+            fitted = [reduce(fit, kind.name), *known.get(rest, ())]
+            best = min(fitted, key=lambda small: small.deviance(fit.sigma))
+            known[rest] = (best,)
+            smaller[kind.name] = best
+            support[kind.name] = compare(best, fit, held_out)
         needless = [name for name, evidence in support.items() if may_be_chance(evidence, tried)]
         if not needless:
             return fit, smaller, support
@@ -111,11 +113,14 @@ def _screened(fit: Fit, path: Sequence[Screen]) -> Screen:
 
 
 def _alternatives(
-    final: Fit, screen: Screen, kinds: Sequence[type[Effect]], progress: Progress
+    final: Fit, name: str, screen: Screen, kinds: Sequence[type[Effect]], progress: Progress
 ) -> tuple[str, ...]:
     """Return effects that, added to the rest, explain the data as well as what was found."""
-    worth = screen.fit.deviance(final.sigma) - final.deviance(final.sigma)
     present = {effect.name for effect in final.model.effects}
+    (chosen,) = (kind for kind in final.space.kinds if kind.name == name)
+    # First order promises too little on a rough floor, but to both alike.
+    worth = screen.fit.deviance(final.sigma) - final.deviance(final.sigma)
+    worth = min(worth, screen.score(chosen).ratio)
     found = []
     for kind in kinds:
         if kind.name in present:

@@ -3,19 +3,19 @@
 from collections.abc import Sequence
 
 import numpy as np
-from scipy import stats
 
-from diffbot_sim.identification.bases import again, bases
+from diffbot_sim.identification.bases import Basis, again, bases
 from diffbot_sim.identification.dependence import (
     Dependence,
     acting,
-    chance_of,
     explained_by,
-    folds_chance,
     realised,
+    sensitivity,
     worth_of,
 )
 from diffbot_sim.identification.fitting import Fit, whitened
+from diffbot_sim.identification.gains import chance_of, folds_chance
+from diffbot_sim.identification.guards import EITHER_LEVEL, is_chance, lasting
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.robust import huber
@@ -24,12 +24,6 @@ from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.identification.variables import VARIABLES
 
-# As strict as the entry of an effect: chance over all dependences tried, disturbances, held out.
-LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_LEVEL = 1e-3, 1e-2, 0.05
-# Of the last two neither may be above this, and together they may not be above what they are at
-# their levels: where one is beyond all doubt, the other need not be so strict.
-EITHER_LEVEL = 0.05
-BOTH_LEVEL = float(stats.combine_pvalues([BLOCK_LEVEL, HELD_OUT_LEVEL]).pvalue)
 # How many of the dependences are put to the test.
 FOLLOWED = 4
 # A dependence explains almost as much as another with this share of its worth.
@@ -55,7 +49,7 @@ def find_dependence(screen: Screen, held_out: Sequence[Stretch]) -> Dependence |
     One of fewer functions that explains almost as much says more.
     """
     tried = dependences(screen)
-    promising = [d for d in tried[:FOLLOWED] if beyond_chance(d, len(tried))]
+    promising = [d for d in tried[:FOLLOWED] if not is_chance(d.p_value, len(tried))]
     fitted = [realised(screen.fit, dependence.basis) for dependence in promising]
     found = [d for d in fitted if _is_beyond_doubt(screen, d, held_out, len(tried))]
     worths = [worth_of(dependence, screen.fit) for dependence in found]
@@ -64,30 +58,20 @@ def find_dependence(screen: Screen, held_out: Sequence[Stretch]) -> Dependence |
     return min(near, key=lambda dependence: dependence.basis.size, default=None)
 
 
-def beyond_chance(dependence: Dependence, tried: int) -> bool:
-    """Say whether chance would hardly explain as much, with so many tried."""
-    return dependence.p_value * tried < LIKELIHOOD_LEVEL
-
-
 def _is_beyond_doubt(
     screen: Screen, dependence: Dependence, held_out: Sequence[Stretch], tried: int
 ) -> bool:
-    if not beyond_chance(dependence, tried) or dependence.p_block > EITHER_LEVEL:
+    if is_chance(dependence.p_value, tried) or dependence.p_block > EITHER_LEVEL:
         return False
     chance = _held_out_chance(screen.fit, dependence, held_out)
-    elsewhere = 2.0 * min(chance, folds_chance(screen, dependence.basis))
+    elsewhere = 2.0 * min(chance, _folds_chance(screen, dependence.basis))
     return lasting(dependence.p_block, elsewhere)
 
 
-def lasting(p_block: float, elsewhere: float) -> bool:
-    """Say whether something is neither a passing disturbance nor a fit to one: Fisher's method.
-
-    elsewhere: the chance of what it predicts of data that it was not fitted to.
-    """
-    if max(p_block, elsewhere) > EITHER_LEVEL:
-        return False
-    both = np.maximum([p_block, elsewhere], np.finfo(float).tiny)
-    return bool(stats.combine_pvalues(both).pvalue <= BOTH_LEVEL)
+def _folds_chance(screen: Screen, basis: Basis) -> float:
+    """Return the chance of what it predicts of each part of the runs from others, first order."""
+    slopes = screen.project(sensitivity(screen.fit, screen.fit.stretches, basis))
+    return folds_chance(screen.residual, slopes.reshape(-1, basis.size))
 
 
 def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) -> float:

@@ -10,23 +10,19 @@ from scipy import stats
 from diffbot_sim.identification.candidates import approach, complete
 from diffbot_sim.identification.evidence import Evidence, compare
 from diffbot_sim.identification.fitting import Fit
+from diffbot_sim.identification.guards import BLOCK_LEVEL, is_chance, lasting
 from diffbot_sim.identification.screening import PROMISING, Score, Screen
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.physics.effects import Effect
 
-# An effect enters when all four agree. The likelihood ratio, corrected for the number tried,
-# guards against chance; the block test against disturbances that are no white noise; the
-# held-out gain against fitting them.
-LIKELIHOOD_LEVEL, BLOCK_LEVEL, HELD_OUT_LEVEL = 1e-3, 1e-2, 0.05
-# Where the block test is as sure as this, held-out data, of which there are few, must not speak
-# against an effect, but need not prove it once more.
-BEYOND_DOUBT = 1e-5
 # What explains less than this share of the best after a few steps is fitted to its end only where
 # nothing better enters.
 WORTH_COMPLETING = 0.4
 
 SUPPORTED = 'supported'
 CHANCE = 'no better than chance'
+PASSING = 'not beyond a disturbance that changes slowly'
+UNCONFIRMED = 'does not predict held-out data better'
 BEHIND = 'explains far less than another effect'
 OUTDONE = 'resembles what acts, but a free-form force explains more'
 UNSEEN = 'not excited by this drive'
@@ -124,21 +120,19 @@ def _behind(screen: Screen, kind: type[Effect], fall: float) -> Trial:
 def _first_order(screen: Screen, kind: type[Effect], fall: float, p_value: float) -> Evidence:
     """Return the evidence of what was not fitted to the end."""
     cost = len(kind.specs()) * float(np.log(screen.fit.whitened.size))
-    return Evidence(fall - cost, p_value, nan, nan, nan)
+    return Evidence(fall - cost, p_value, nan, nan, nan, nan)
 
 
 def may_be_chance(evidence: Evidence, tried: int) -> bool:
     """Say whether the likelihood allows an effect to be chance, with so many tried."""
-    return evidence.p_value * tried > LIKELIHOOD_LEVEL or evidence.delta_bic <= 0.0
+    return is_chance(evidence.p_value, tried) or evidence.delta_bic <= 0.0
 
 
 def judge(evidence: Evidence, tried: int) -> str:
     """Say whether an effect, one of so many tried, may enter, or why not."""
     if may_be_chance(evidence, tried):
         return CHANCE
-    if evidence.p_block > BLOCK_LEVEL:
-        return 'not beyond a disturbance that changes slowly'
-    sure = evidence.p_block < BEYOND_DOUBT and evidence.held_out_gain > 0.0
-    if evidence.p_held_out > HELD_OUT_LEVEL and not sure:
-        return 'does not predict held-out data better'
-    return SUPPORTED
+    if lasting(evidence.p_block, evidence.p_elsewhere):
+        return SUPPORTED
+    passing = lasting(BLOCK_LEVEL, evidence.p_elsewhere)
+    return PASSING if passing else UNCONFIRMED

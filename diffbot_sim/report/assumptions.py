@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from diffbot_sim.identification import agreement, stretches, trials
+from diffbot_sim.identification import agreement, guards, stretches
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.report.numerals import significant
 from diffbot_sim.report.sentences import split
@@ -17,8 +17,8 @@ def _robot(result: Identification) -> list[str]:
     robot = result.declared.robot
     return [
         'Wheels roll without slipping, and all runs are of one robot in one condition.',
-        f'Wheel separation {robot.wheel_separation:g} m and radius {robot.wheel_radius:g} m are '
-        'as declared; odometry was made with the same.',
+        f'Wheel separation {robot.wheel_separation:g} m, unless effective_track is named, and '
+        f'radius {robot.wheel_radius:g} m are as declared; odometry was made with the same.',
         'The floor is flat, or tilted evenly. What else it does (bumps, joints) is a force that '
         'may be correlated in time, so that it does not pass for an effect.',
     ]
@@ -52,9 +52,9 @@ def _errors(result: Identification) -> list[str]:
 def _decisions() -> list[str]:
     return [
         'An effect enters when three tests agree: likelihood ratio '
-        f'(p < {trials.LIKELIHOOD_LEVEL:g}, corrected for the number of effects tried), the '
-        f'same against serial correlation (p < {trials.BLOCK_LEVEL:g}) and a gain on held-out '
-        f'data (p < {trials.HELD_OUT_LEVEL:g}).',
+        f'(p < {guards.LIKELIHOOD_LEVEL:g}, corrected for the number of effects tried), the '
+        f'same against serial correlation (p < {guards.BLOCK_LEVEL:g}) and a gain on data that it '
+        f'was not fitted to (p < {guards.ELSEWHERE_LEVEL:g}).',
         'Effects were chosen with all fitted runs. A run disagrees when a parameter differs from '
         f'that of the others (p < {agreement.LEVEL:g}, corrected for runs and parameters) by more '
         f'than {100 * agreement.IMMATERIAL:g} %.',
