@@ -269,7 +269,7 @@ def browsed(page: Path) -> str:
     quiet = ['--disable-background-networking', '--disable-component-update', '--disable-sync']
     flags = ['--headless', '--no-sandbox', '--disable-gpu', '--hide-scrollbars', *quiet]
     where = [f'--user-data-dir={page.parent}/profile', '--window-size=1200,9000']
-    what = ['--allow-file-access-from-files', '--virtual-time-budget=8000', '--dump-dom']
+    what = ['--allow-file-access-from-files', '--virtual-time-budget=30000', '--dump-dom']
     command = ['chromium', *flags, *where, *what, f'file://{page}']
     return subprocess.run(command, capture_output=True, text=True, timeout=120, check=True).stdout
 
