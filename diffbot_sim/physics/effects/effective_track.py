@@ -30,7 +30,7 @@ class EffectiveTrack(Effect):
     excitation = 'arcs that each wheel stops and reverses in, turns on the spot, straight drives'
 
     widening: float = parameter(
-        0.0, unit='1', low=-0.8, high=4.0, scale=0.03, meaning='share by which it is wider'
+        0.0, unit='-', low=-0.8, high=4.0, scale=0.03, meaning='share by which it is wider'
     )
 
     @property
