@@ -22,9 +22,7 @@ def test_effect_that_does_not_predict_held_out_data_stays_outside() -> None:
     assert judge(vague, tried=16) == 'does not predict held-out data better'
 
 
-def test_effect_that_parts_of_a_run_tell_of_each_other_needs_no_more_from_the_held_out_rest() -> (
-    None
-):
+def test_parts_of_a_run_may_confirm_what_its_end_leaves_open() -> None:
     short = Evidence(60.0, 1e-15, 0.004, 0.001, 0.4, 0.001)
     assert judge(short, tried=16) == SUPPORTED
     assert judge(short.of_best(40), tried=16) != SUPPORTED

@@ -3,12 +3,14 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import isnan, nan
+from operator import itemgetter
 
 import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.fitting import Fit, whitened
 from diffbot_sim.identification.gains import block_gain, folds_chance
+from diffbot_sim.identification.guards import best_look
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.projection import Projection
 from diffbot_sim.identification.robust import huber, influence
@@ -26,7 +28,8 @@ class Evidence:
 
     delta_bic: fall of the BIC; p_value: likelihood ratio; p_block: Wald test with the covariance
     of blocks; held_out_gain: fall of the mean half squared error per held-out sample;
-    p_held_out: the chance of that, by signed ranks of blocks.
+    p_held_out: the chance of that, by signed ranks of blocks; p_folds: the same of parts of the
+    runs predicted from the others, nan where they prove nothing.
     """
 
     delta_bic: float
@@ -39,8 +42,7 @@ class Evidence:
     @property
     def p_elsewhere(self) -> float:
         """The chance of what it predicts of data that it was not fitted to."""
-        looks = [p for p in (self.p_held_out, self.p_folds) if not isnan(p)]
-        return min(1.0, len(looks) * min(looks, default=1.0))
+        return best_look(*(p for p in (self.p_held_out, self.p_folds) if not isnan(p)))
 
     def of_best(self, looks: int) -> 'Evidence':
         """Return the evidence for a structure that was the best of so many."""
@@ -102,8 +104,8 @@ def held_out_gain(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> tuple[
             for fit, stretches in zip((small, large), begun, strict=True)
         ]
         looks.append(block_gain(losses[0] - losses[1]))
-    gain, chance = min(looks, key=lambda look: look[1])
-    return gain, min(1.0, len(looks) * chance)
+    gain, _ = min(looks, key=itemgetter(1))
+    return gain, best_look(*(chance for _, chance in looks))
 
 
 def _folds_chance(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:

@@ -18,6 +18,11 @@ def is_chance(p_value: float, tried: int) -> bool:
     return p_value * tried > LIKELIHOOD_LEVEL
 
 
+def best_look(*chances: float) -> float:
+    """Return the chance of the least of these chances: who looks often sees more."""
+    return min(1.0, len(chances) * min(chances, default=1.0))
+
+
 def lasting(p_block: float, elsewhere: float) -> bool:
     """Say whether something is neither a passing disturbance nor a fit to one: Fisher's method.
 

@@ -33,19 +33,21 @@ def derivatives(errors: Errors, at: Array, base: Array) -> Array:
     Where a slope may be a jump, both sides are looked at.
     """
 
-    def difference(index: int, step: float) -> Array:
-        moved = at.copy()
-        moved[index] += step
-        return np.asarray((errors(moved) - base) / step)
-
     def column(index: int) -> Array:
-        slopes = difference(index, DIFFERENCE)
+        slopes = difference(errors, at, base, index, DIFFERENCE)
         size = np.abs(slopes)
         if size.max() <= JUMP * np.quantile(size, ALL_BUT):
             return slopes
-        return flatter(slopes, difference(index, -DIFFERENCE))
+        return flatter(slopes, difference(errors, at, base, index, -DIFFERENCE))
 
     return np.stack(each(column, range(len(at))), axis=-1)
+
+
+def difference(errors: Errors, at: Array, base: Array, index: int, step: float) -> Array:
+    """Return by how much errors change with one coordinate, per unit of it, shape (n, 2)."""
+    moved = at.copy()
+    moved[index] += step
+    return np.asarray((errors(moved) - base) / step)
 
 
 def flatter(one: Array, other: Array) -> Array:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from diffbot_sim.identification.fitting import Fit, predictions
-from diffbot_sim.identification.stretches import travel
+from diffbot_sim.identification.views import views
 from diffbot_sim.records import Array
 
 # Orders [cycles per revolution] that are looked at, and how many of the strongest are kept.
@@ -51,13 +51,9 @@ def rates(fit: Fit) -> tuple[float, ...]:
 
 def _by_wheel(fit: Fit) -> tuple[Array, Array]:
     """Return wheel angles [rad] and the wheels' share of the innovations, columns right, left."""
-    b, r = fit.model.half_separation, fit.model.robot.wheel_radius
-    mix = np.array([[1.0, 1.0], [b, -b]])
-    angles, errors = [], []
-    for stretch, found in zip(fit.stretches, predictions(fit, fit.stretches), strict=True):
-        angles.append(travel(stretch, found.twist) @ mix / r)
-        errors.append((found.innovation * stretch.used[:, None]) @ mix)
-    return np.concatenate(angles), np.concatenate(errors)
+    seen = views(fit, fit.stretches)
+    errors = [(v.prediction.innovation * v.stretch.used[:, None]) @ v.mix for v in seen]
+    return np.concatenate([v.wheel_angle for v in seen]), np.concatenate(errors)
 
 
 def _strongest(orders: Array, angles: Array, errors: Array, spacing: float) -> tuple[float, ...]:

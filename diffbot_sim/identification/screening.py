@@ -10,7 +10,7 @@ from scipy import stats
 
 from diffbot_sim.identification.coordinates import Space, point_of
 from diffbot_sim.identification.fitting import Fit, whitened
-from diffbot_sim.identification.minimisation import flatter
+from diffbot_sim.identification.minimisation import difference, flatter
 from diffbot_sim.identification.parallel import each
 from diffbot_sim.identification.periodicity import wheel_orders
 from diffbot_sim.identification.projection import Projection
@@ -150,15 +150,15 @@ class Screen:
 
     def _slope(self, space: Space, neutral: Array, index: int) -> Array:
         """Return the slope of the errors along an amount, of both sides where both are valid."""
-        one = self._difference(space, neutral, index, AMOUNT)
-        if neutral[index] - AMOUNT < space.bounds()[0][index]:
-            return one
-        return flatter(one, self._difference(space, neutral, index, -AMOUNT))
-
-    def _difference(self, space: Space, neutral: Array, index: int, step: float) -> Array:
-        moved = neutral.copy()
-        moved[index] += step
-        return np.asarray((self._errors_at(space, moved) - self.fit.whitened) / step)
+        by = partial(
+            difference, partial(self._errors_at, space), neutral, self.fit.whitened, index
+        )
+        one = by(AMOUNT)
+        return (
+            one
+            if neutral[index] - AMOUNT < space.bounds()[0][index]
+            else flatter(one, by(-AMOUNT))
+        )
 
     def _best(self, space: Space, options: Sequence['_Option']) -> tuple[Array, ...]:
         """Return the point that promises most, and of the next ones that with the least error."""

@@ -87,18 +87,15 @@ def _prune(
     path: the fits of the forward search. Each is asked once more from where the larger one led:
     an effect must not live off a poor end of the fit that lacks it.
     """
-    known = {frozenset(fit.space.kinds): (fit,) for fit in path}
     fit = path[-1]
     while True:
         support, smaller = dict[str, Evidence](), dict[str, Fit]()
         for kind in fit.space.kinds:
-            rest = frozenset(fit.space.kinds) - {kind}
+            rest = set(fit.space.kinds) - {kind}
             progress(f'trying without {kind.name}')
-            fitted = [reduce(fit, kind.name), *known.get(rest, ())]
-            best = min(fitted, key=lambda small: small.deviance(fit.sigma))
-            known[rest] = (best,)
-            smaller[kind.name] = best
-            support[kind.name] = compare(best, fit, held_out)
+            ends = [reduce(fit, kind.name), *(f for f in path if set(f.space.kinds) == rest)]
+            smaller[kind.name] = min(ends, key=lambda end: end.deviance(fit.sigma))
+            support[kind.name] = compare(smaller[kind.name], fit, held_out)
         needless = [name for name, evidence in support.items() if may_be_chance(evidence, tried)]
         if not needless:
             return fit, smaller, support

@@ -15,7 +15,7 @@ from diffbot_sim.identification.dependence import (
 )
 from diffbot_sim.identification.fitting import Fit, whitened
 from diffbot_sim.identification.gains import chance_of, folds_chance
-from diffbot_sim.identification.guards import EITHER_LEVEL, is_chance, lasting
+from diffbot_sim.identification.guards import EITHER_LEVEL, best_look, is_chance, lasting
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.robust import huber
@@ -64,7 +64,7 @@ def _is_beyond_doubt(
     if is_chance(dependence.p_value, tried) or dependence.p_block > EITHER_LEVEL:
         return False
     chance = _held_out_chance(screen.fit, dependence, held_out)
-    elsewhere = 2.0 * min(chance, _folds_chance(screen, dependence.basis))
+    elsewhere = best_look(chance, _folds_chance(screen, dependence.basis))
     return lasting(dependence.p_block, elsewhere)
 
 

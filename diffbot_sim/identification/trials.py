@@ -10,7 +10,7 @@ from scipy import stats
 from diffbot_sim.identification.candidates import approach, complete
 from diffbot_sim.identification.evidence import Evidence, compare
 from diffbot_sim.identification.fitting import Fit
-from diffbot_sim.identification.guards import BLOCK_LEVEL, is_chance, lasting
+from diffbot_sim.identification.guards import ELSEWHERE_LEVEL, is_chance, lasting
 from diffbot_sim.identification.screening import PROMISING, Score, Screen
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.physics.effects import Effect
@@ -134,5 +134,4 @@ def judge(evidence: Evidence, tried: int) -> str:
         return CHANCE
     if lasting(evidence.p_block, evidence.p_elsewhere):
         return SUPPORTED
-    passing = lasting(BLOCK_LEVEL, evidence.p_elsewhere)
-    return PASSING if passing else UNCONFIRMED
+    return PASSING if evidence.p_elsewhere <= ELSEWHERE_LEVEL else UNCONFIRMED

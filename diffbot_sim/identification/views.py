@@ -33,16 +33,17 @@ class View:
     @cached_property
     def wheel_speed(self) -> Array:
         """Speeds of the wheels [m/s], shape (k, 2)."""
-        return self.prediction.twist @ self._mix
+        return self.prediction.twist @ self.mix
 
     @cached_property
     def wheel_angle(self) -> Array:
         """Angles of the wheels [rad], shape (k, 2)."""
         radius = self.fit.model.robot.wheel_radius
-        return travel(self.stretch, self.prediction.twist) @ self._mix / radius
+        return travel(self.stretch, self.prediction.twist) @ self.mix / radius
 
     @property
-    def _mix(self) -> Array:
+    def mix(self) -> Array:
+        """What takes (v, ω) to the speeds of the wheels, shape (2, 2)."""
         b = self.fit.model.half_separation
         return np.array([[1.0, 1.0], [b, -b]])
 
