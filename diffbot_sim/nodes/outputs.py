@@ -4,6 +4,7 @@ from typing import Any
 
 from geometry_msgs.msg import WrenchStamped
 from nav_msgs.msg import Odometry
+from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
@@ -18,6 +19,7 @@ SIDES = ('right', 'left')
 DEPTH = 10
 # Messages kept for a listener that is busy, so that a recording on a busy machine has no gap.
 KEPT = 1000
+UNWATCHED = PublisherEventCallbacks(use_default_callbacks=False)
 
 
 class Outputs:
@@ -27,11 +29,9 @@ class Outputs:
         self._prefix = settings.frame_prefix
         self._force = _per_wheel(node, 'force')
         self._friction = _per_wheel(node, 'friction')
-        self._odom = node.create_publisher(Odometry, 'odom', KEPT)
-        self._joints = node.create_publisher(JointState, 'joint_states', KEPT)
-        self._clock = (
-            node.create_publisher(Clock, '/clock', DEPTH) if settings.publish_clock else None
-        )
+        self._odom = _publisher(node, Odometry, 'odom', KEPT)
+        self._joints = _publisher(node, JointState, 'joint_states', KEPT)
+        self._clock = _publisher(node, Clock, '/clock', DEPTH) if settings.publish_clock else None
         self._tf = _tf_publisher(node) if settings.enable_odom_tf else None
         self._last, self._joint_state = Odometry(), JointState(name=conversions.JOINTS)
 
@@ -79,10 +79,18 @@ class Outputs:
         self._joints.publish(self._joint_state)
 
 
+def _publisher(node: Node, kind: Any, topic: str, depth: int) -> Any:
+    """Return a publisher that does not watch who asks for a QoS that it does not offer.
+
+    The one who asks is told. Watching would cost a third of the node's time.
+    """
+    return node.create_publisher(kind, topic, depth, event_callbacks=UNWATCHED)
+
+
 def _per_wheel(node: Node, name: str) -> tuple[tuple[Any, WrenchStamped], ...]:
     """Return a publisher and its message for each wheel."""
     return tuple(
-        (node.create_publisher(WrenchStamped, f'{side}_wheel/{name}', KEPT), WrenchStamped())
+        (_publisher(node, WrenchStamped, f'{side}_wheel/{name}', KEPT), WrenchStamped())
         for side in SIDES
     )
 
@@ -94,4 +102,4 @@ def _tf_publisher(node: Node) -> tuple[Any, Any] | None:
     except ImportError:
         node.get_logger().warning('enable_odom_tf: tf2_msgs is not installed; no tf is published')
         return None
-    return TFMessage, node.create_publisher(TFMessage, 'tf', KEPT)
+    return TFMessage, _publisher(node, TFMessage, 'tf', KEPT)
