@@ -44,8 +44,18 @@ def test_jump_beside_a_point_is_no_slope(side) -> None:
         return found
 
     point = np.ones(2)
-    slopes = derivatives(errors, point, errors(point))
+    slopes = derivatives(errors, point, errors(point), FAR)
     assert slopes[..., 0] == pytest.approx(NOISE * [1.0, 0.0], abs=1e-6)
+
+
+@pytest.mark.parametrize('end', FAR)
+def test_nothing_is_asked_for_beyond_bounds(end) -> None:
+    def errors(at):
+        assert np.all((FAR[0] <= at) & (at <= FAR[1]))
+        return NOISE * at + 9.0 * (at[0] != end[0])  # a jump: both sides would be looked at
+
+    slopes = derivatives(errors, end, errors(end), FAR)
+    assert np.isfinite(slopes).all()
 
 
 def test_scale_is_that_of_the_errors_and_events_count_little() -> None:

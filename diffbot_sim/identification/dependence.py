@@ -87,7 +87,7 @@ def realised(fit: Fit, basis: Basis) -> Dependence:
     start, size = np.concatenate([fit.u, fit.gains, none]), len(known.centre)
     point, _ = minimise(errors, start, prior, bounds, EVALUATIONS, rounds=1)
     left = errors(point)
-    slopes = derivatives(errors, point, left).reshape(-1, len(point))
+    slopes = derivatives(errors, point, left, bounds).reshape(-1, len(point))
     information = prior.deviation**-2.0
     joint = sandwich(slopes, left.ravel(), information)[size:, size:]
     return Dependence(

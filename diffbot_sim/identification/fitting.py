@@ -71,7 +71,7 @@ class Fit:
             return whitened(stretches, self.space.model(point[:size]), point[size:], self.sigma)
 
         point = np.concatenate([self.u, self.gains])
-        return derivatives(errors, point, errors(point))
+        return derivatives(errors, point, errors(point), joint_bounds(self.space))
 
 
 def whitened(

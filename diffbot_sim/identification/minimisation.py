@@ -1,6 +1,7 @@
 """Robust least squares with a weak prior; parameters and the scale of errors settle in turn."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +19,8 @@ JUMP, ALL_BUT = 30.0, 0.99
 SETTLED = 0.002
 # Errors (n, 2) at a point (p,).
 Errors = Callable[[Array], Array]
+# Lowest and highest coordinates, each of shape (p,).
+Bounds = tuple[Array, Array]
 
 
 class Prior(NamedTuple):
@@ -27,18 +30,24 @@ class Prior(NamedTuple):
     deviation: Array
 
 
-def derivatives(errors: Errors, at: Array, base: Array) -> Array:
-    """Return derivatives of errors by differences, on all cores, shape (n, 2, p).
+def derivatives(errors: Errors, at: Array, base: Array, bounds: Bounds) -> Array:
+    """Return derivatives of errors by differences within bounds, on all cores, shape (n, 2, p).
 
     Where a slope may be a jump, both sides are looked at.
     """
+    low, high = bounds
 
     def column(index: int) -> Array:
-        slopes = difference(errors, at, base, index, DIFFERENCE)
+        one, *other = (
+            partial(difference, errors, at, base, index, step)
+            for step in (DIFFERENCE, -DIFFERENCE)
+            if low[index] <= at[index] + step <= high[index]
+        )
+        slopes = one()
         size = np.abs(slopes)
-        if size.max() <= JUMP * np.quantile(size, ALL_BUT):
+        if not other or size.max() <= JUMP * np.quantile(size, ALL_BUT):
             return slopes
-        return flatter(slopes, difference(errors, at, base, index, -DIFFERENCE))
+        return flatter(slopes, other[0]())
 
     return np.stack(each(column, range(len(at))), axis=-1)
 
@@ -63,14 +72,14 @@ def minimise(
     errors: Errors,
     start: Array,
     prior: Prior,
-    bounds: tuple[Array, Array],
+    bounds: Bounds,
     evaluations: int,
     rounds: int,
 ) -> tuple[Array, Array]:
     """Alternate robust least squares and the scale of the errors; return point and scale."""
     low, high = bounds
     margin = 1e-9 * np.maximum(1.0, np.abs(start))
-    point, known = np.clip(start, low + margin, high - margin), _Remembered(errors)
+    point, known = np.clip(start, low + margin, high - margin), _Remembered(errors, bounds)
     sigma = scale_of(known.errors(point))
     for _ in range(rounds):
         point, converged = _least_squares(known, point, prior, bounds, sigma, evaluations)
@@ -83,8 +92,8 @@ def minimise(
 class _Remembered:
     """Errors and their derivatives where they were asked for last: that is often asked again."""
 
-    def __init__(self, errors: Errors) -> None:
-        self._errors = errors
+    def __init__(self, errors: Errors, bounds: Bounds) -> None:
+        self._errors, self._bounds = errors, bounds
         self._at = self._linear_at = np.array([np.nan])
         self._values = self._slopes = np.empty(0)
 
@@ -97,7 +106,7 @@ class _Remembered:
     def derivatives(self, at: Array) -> Array:
         """Return their derivatives, shape (n, 2, p)."""
         if not np.array_equal(at, self._linear_at):
-            self._slopes = derivatives(self._errors, at, self.errors(at))
+            self._slopes = derivatives(self._errors, at, self.errors(at), self._bounds)
             self._linear_at = at.copy()
         return self._slopes
 
@@ -106,7 +115,7 @@ def _least_squares(
     known: _Remembered,
     start: Array,
     prior: Prior,
-    bounds: tuple[Array, Array],
+    bounds: Bounds,
     sigma: Array,
     evaluations: int,
 ) -> tuple[Array, bool]:
