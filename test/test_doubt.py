@@ -29,10 +29,11 @@ def clean() -> tuple[Fit, tuple[Stretch, ...]]:
     return fit_prediction(space, fitted, space.prior(), FIRST_GAINS), held_out
 
 
-def answer_after(outcome: str, delta_bic: float):
+def answer_after(outcome: str, delta_bic: float, elsewhere: float = 0.2):
     """Return what doubt says when this is how an effect fared that did not enter."""
     fit, held_out = clean()
-    trial = Trial(PayloadChange, fit, Evidence(delta_bic, 0.0, 0.05, 0.1, 0.2, 0.2), outcome)
+    evidence = Evidence(delta_bic, 0.0, 0.05, 0.1, elsewhere, elsewhere)
+    trial = Trial(PayloadChange, fit, evidence, outcome)
     return doubt(Selection(fit, fit, (trial,), {}, {}, {}), held_out)
 
 
@@ -49,6 +50,10 @@ def test_refused_effect_that_explains_too_much_for_chance_is_no_silence() -> Non
     assert selection.final.space.kinds == ()
     assert left is not None
     assert left.description.startswith('something that payload_change explains in part')
+
+
+def test_what_all_other_data_speak_against_raises_no_suspicion() -> None:
+    assert answer_after('does not predict held-out data better', 90.0, elsewhere=0.8)[1] is None
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ import plotly.graph_objects as go
 import pytest
 from rich.console import Console
 
-from diffbot_sim.identification.result import Estimate, Identification
+from diffbot_sim.identification.result import Estimate, Identification, Timing
 from diffbot_sim.physics.effects import laws, library
 from diffbot_sim.report import figures, print_summary, sentences, write_report
 from diffbot_sim.report.dependence import binned
@@ -93,6 +93,16 @@ def test_run_that_disagrees_is_named_at_once(told: Callable[[Identification], st
     said = 'second drive disagrees with the other runs: mass 12.900 ± 0.100 kg'
     table = 'Error before and after' if '<' in text else 'Free-running error'
     assert text.index(said) < text.index(table)
+
+
+@pytest.mark.parametrize('told', [page_text, summary])
+def test_reader_learns_when_twists_were_not_taken_as_stamped(
+    told: Callable[[Identification], str],
+) -> None:
+    late = Timing('first drive', 0.0102, of_pose=False), Timing('second drive', 0.05, of_pose=True)
+    text = ' '.join(told(replace(by_hand.nothing_missing(), timings=late)).split())
+    assert 'first drive: the twists were taken as 10.2 ms older than their stamps' in text
+    assert 'second drive: the twists lag the poses by 50 ms' in text
 
 
 def test_of_two_runs_that_disagree_neither_is_called_odd() -> None:

@@ -9,9 +9,9 @@ from scipy import stats
 from diffbot_sim.identification.bases import UNIT_SHARE, Basis
 from diffbot_sim.identification.evidence import sandwich, wald_p
 from diffbot_sim.identification.fitting import Fit, joint_bounds, joint_prior, whitened
+from diffbot_sim.identification.memory import fall_of_deviance
 from diffbot_sim.identification.minimisation import Prior, derivatives, flatter, minimise
 from diffbot_sim.identification.parallel import each
-from diffbot_sim.identification.robust import huber
 from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.identification.variables import VARIABLES
@@ -92,7 +92,7 @@ def realised(fit: Fit, basis: Basis) -> Dependence:
     joint = sandwich(slopes, left.ravel(), information)[size:, size:]
     return Dependence(
         basis,
-        fall=max(float(huber(fit.whitened).sum() - huber(left).sum()), 0.0),
+        fall=fall_of_deviance(fit.whitened, left),
         amounts=point[size:],
         adaptation=(point - start)[:size],
         spread=sandwich(slopes[:, size:], left.ravel(), information[size:]),

@@ -63,7 +63,7 @@ def _suspicion(
     selection: Selection, held_out: Sequence[Stretch]
 ) -> tuple[Selection, Structure | None]:
     """Doubt silence, and the weakest name, beside a refused effect that is beyond chance."""
-    refused = (trial for trial in selection.trials if trial.refused)
+    refused = (t for t in selection.trials if t.refused and not t.evidence.is_contradicted)
     most = max(refused, key=lambda t: t.evidence.delta_bic, default=None)
     if most is None or most.evidence.delta_bic < SUSPICIOUS:
         return selection, None

@@ -11,6 +11,7 @@ from scipy import stats
 from diffbot_sim.identification.fitting import Fit, whitened
 from diffbot_sim.identification.gains import block_gain, folds_chance
 from diffbot_sim.identification.guards import best_look
+from diffbot_sim.identification.memory import fall_of_deviance
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.projection import Projection
 from diffbot_sim.identification.robust import huber, influence
@@ -44,6 +45,11 @@ class Evidence:
         """The chance of what it predicts of data that it was not fitted to."""
         return best_look(*(p for p in (self.p_held_out, self.p_folds) if not isnan(p)))
 
+    @property
+    def is_contradicted(self) -> bool:
+        """Whether held-out data and other parts of the runs would rather do without it."""
+        return self.p_held_out >= 0.5 and self.p_folds >= 0.5
+
     def of_best(self, looks: int) -> 'Evidence':
         """Return the evidence for a structure that was the best of so many."""
         chances = (self.p_value, self.p_block, self.p_folds)
@@ -54,7 +60,7 @@ class Evidence:
 def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
     """Weigh a large fit against a small one nested in it."""
     added = len(large.u) - len(small.u)
-    ratio = max(small.deviance(large.sigma) - large.deviance(large.sigma), 0.0)
+    ratio = fall_of_deviance(small.whitened * (small.sigma / large.sigma), large.whitened)
     samples = large.whitened.size
     gain, chance = held_out_gain(small, large, held_out)
     amounts, shapes = _added(small, large)

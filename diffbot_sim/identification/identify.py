@@ -1,19 +1,15 @@
 """From runs and a declared model to what the model lacks."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 
-from diffbot_sim.errors import DataError
 from diffbot_sim.identification.advice import advice
 from diffbot_sim.identification.agreement import agreement
-from diffbot_sim.identification.calibration import calibrate, simulation_error
+from diffbot_sim.identification.calibration import simulation_error
 from diffbot_sim.identification.comparison import compare_models, errors_of
-from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.doubt import doubt
 from diffbot_sim.identification.empirical import table_of, with_term
-from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction, fit_simulation
+from diffbot_sim.identification.fitting import Fit, fit_simulation
 from diffbot_sim.identification.horizons import horizons
-from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
     NOTHING_MISSING,
@@ -24,10 +20,9 @@ from diffbot_sim.identification.result import (
     Identification,
     Structure,
 )
-from diffbot_sim.identification.selection import Selection, select
-from diffbot_sim.identification.start import restarted
-from diffbot_sim.identification.stretches import Stretch, split, whole
-from diffbot_sim.identification.trials import Trial
+from diffbot_sim.identification.search import Recordings, search
+from diffbot_sim.identification.selection import Selection
+from diffbot_sim.identification.trials import Progress, Trial
 from diffbot_sim.identification.uncertainty import estimates
 from diffbot_sim.physics.effects import Effect, laws, library
 from diffbot_sim.physics.model import Model
@@ -42,7 +37,7 @@ def identify(
     runs: Sequence[Run],
     declared: Model,
     validate: Sequence[Run] = (),
-    progress: Callable[[str], None] = lambda text: None,
+    progress: Progress = lambda text: None,
     kinds: Sequence[type[Effect]] | None = None,
 ) -> Identification:
     """Recalibrate a declared model on runs, and find the effects that it lacks.
@@ -51,54 +46,35 @@ def identify(
     out. kinds: the effects to try, by default the whole library. Raises DataError where the
     runs are too short or do not move.
     """
-    fitted, held_out = (whole(runs), whole(validate)) if validate else split(runs)
-    _check(fitted)
-    tried = _candidates(declared, kinds)
-    progress('calibrating the declared model')
-    recalibrated = calibrate(Space(declared, ()), fitted)
-    fitted = restarted(recalibrated.model, fitted, MAX_STEP)
-    progress('fitting the noise model')
-    base = fit_prediction(recalibrated.space, fitted, recalibrated.u, FIRST_GAINS)
-    # One-step errors have fewer local minima: where they lead is one more start.
-    again = fit_simulation(base.space, fitted, base.u)
-    recalibrated = min(recalibrated, again, key=simulation_error)
-    selection = select(base, tried, held_out, progress)
-    progress('looking for structure that is left')
-    selection, unexplained = doubt(selection, held_out)
-    final = _for_simulation(selection, recalibrated)
+    recordings = Recordings(tuple(runs), tuple(validate))
+    found = search(recordings, declared, _candidates(declared, kinds), progress)
+    selection, unexplained, held_out = found.selection, found.unexplained, found.held_out
+    final = _for_simulation(selection, found.recalibrated)
     closed = unexplained and with_term(final, unexplained, held_out)
     final = closed or final
     # Whatever gave the parameters, the noise model that the disturbances call for watches them.
     watched = replace(final, gains=selection.final.gains)
-    models, found = (declared, recalibrated.model, final.model), estimates(final)
-    comparisons = compare_models(declared, recalibrated.model, watched, held_out)
+    models, known = (declared, found.recalibrated.model, final.model), estimates(final)
+    comparisons = compare_models(declared, found.recalibrated.model, watched, held_out)
     errors = errors_of(comparisons, 'validate' if validate else 'held_out')
     progress('holding the runs against each other')
     return Identification(
         verdict=_verdict(selection, unexplained),
-        effects=_effects(selection, found),
+        effects=_effects(selection, known),
         unexplained=unexplained,
-        nominal=estimates(recalibrated),
+        nominal=estimates(found.recalibrated),
         errors=errors,
         candidates=tuple(_candidate(trial) for trial in selection.trials),
         declared=declared,
-        recalibrated=recalibrated.model,
+        recalibrated=found.recalibrated.model,
         identified=final.model,
         comparisons=comparisons,
-        advice=advice(selection, found),
+        advice=advice(selection, known),
         empirical=table_of(unexplained) if closed and unexplained else None,
         horizons=horizons(models, watched, held_out, errors),
-        runs=agreement(selection.final, [*runs, *validate]),
+        runs=agreement(selection.final, found.recordings.all),
+        timings=found.recordings.timings(recordings),
     )
-
-
-def _check(stretches: Sequence[Stretch]) -> None:
-    """Refuse runs from which nothing follows."""
-    if all(float(abs(s.twist).max()) < 1e-3 for s in stretches):
-        names = ', '.join(s.run.name for s in stretches)
-        raise DataError(
-            f'{names}: the robot never moves; record a drive with forces that move it.'
-        )
 
 
 def _candidates(declared: Model, kinds: Sequence[type[Effect]] | None) -> tuple[type[Effect], ...]:

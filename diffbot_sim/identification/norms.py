@@ -31,6 +31,11 @@ def noise_floor(twists: Sequence[Array], models: Sequence[Array]) -> ErrorNorm:
     return ErrorNorm(max(white.v_rmse, v), max(white.omega_rmse, omega))
 
 
+def white_noise(twist: Array) -> Array:
+    """Return the white noise of a measured twist (n, 2), which moves smoothly; shape (2,)."""
+    return np.asarray(np.sqrt(np.mean(_white(twist) ** 2, axis=0)))
+
+
 def _white(errors: Array) -> Array:
     """Return what white noise leaves in the second differences, scaled back.
 

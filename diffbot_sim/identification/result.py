@@ -120,6 +120,18 @@ class Horizon:
 
 
 @dataclass(frozen=True)
+class Timing:
+    """A run whose twists are older than their stamps.
+
+    lateness: by how much [s]; of_pose: whether they were taken from the pose instead.
+    """
+
+    run: str
+    lateness: float
+    of_pose: bool
+
+
+@dataclass(frozen=True)
 class Difference:
     """A parameter of which a run says something else than the other runs."""
 
@@ -172,7 +184,7 @@ class Identification:
     """The whole answer.
 
     empirical: the table in `identified` that stands for what is unexplained, if it simulates
-    better with it.
+    better with it; timings: of runs whose twists were not taken as they were stamped.
     """
 
     verdict: str
@@ -189,3 +201,4 @@ class Identification:
     empirical: EmpiricalForce | EmpiricalWheelForce | None = None
     horizons: tuple[Horizon, ...] = ()
     runs: tuple[RunCheck, ...] = ()
+    timings: tuple[Timing, ...] = ()

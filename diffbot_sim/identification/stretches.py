@@ -42,7 +42,7 @@ class Stretch:
     @property
     def interval(self) -> float:
         """Median time between samples [s]."""
-        return float(np.median(np.diff(self.time)))
+        return median_interval(self.time)
 
 
 def whole(runs: Sequence[Run]) -> tuple[Stretch, ...]:
@@ -77,8 +77,13 @@ def thin(run: Run) -> Run:
 
 def _surplus(time: Array, highest: float) -> int:
     """Return how many samples become one at most at the highest rate [Hz]."""
-    interval = float(np.median(np.diff(time))) if len(time) > 1 else 1.0
+    interval = median_interval(time)
     return int(1.0 / (interval * highest) + 0.5) if interval > 0.0 else 1
+
+
+def median_interval(time: Array) -> float:
+    """Return the median time between stamps [s]; a second where there are not two."""
+    return float(np.median(np.diff(time))) if len(time) > 1 else 1.0
 
 
 def _averaged(values: Array, group: int) -> Array:

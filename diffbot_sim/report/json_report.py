@@ -40,6 +40,7 @@ def as_dict(result: Identification) -> dict[str, Any]:
         'advice': list(result.advice),
         'horizons': [asdict(horizon) for horizon in result.horizons],
         'runs': _runs(result),
+        'timings': [asdict(timing) for timing in result.timings],
     }
 
 

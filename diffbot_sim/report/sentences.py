@@ -11,6 +11,7 @@ from diffbot_sim.identification.result import (
     Identification,
     RunCheck,
     Structure,
+    Timing,
 )
 from diffbot_sim.report.numerals import estimate_text, significant
 
@@ -115,6 +116,22 @@ def disagreements(runs: Sequence[RunCheck]) -> list[str]:
     if len(runs) == 2 and odd:
         return [f'{runs[0].name} and {runs[1].name} disagree. {runs[0].name}: {why(runs[0])}.']
     return [f'{run.name} disagrees with the other runs: {why(run)}.' for run in odd]
+
+
+def timings(timings: Sequence[Timing]) -> list[str]:
+    """Say of which runs the twists were taken as older than their stamps, and why."""
+    return [
+        f'{it.run}: the twists lag the poses by {_milliseconds(it)}, as rolling means and filters '
+        'do; what the poses tell was used instead.'
+        if it.of_pose
+        else f'{it.run}: the twists were taken as {_milliseconds(it)} older than their stamps, as '
+        'means over the past are; if they are not, it is the robot that is so much late.'
+        for it in timings
+    ]
+
+
+def _milliseconds(it: Timing) -> str:
+    return f'{1e3 * it.lateness:.3g} ms'
 
 
 def why(run: RunCheck) -> str:

@@ -1,0 +1,115 @@
+"""The search: from recordings and a declared model to a structure that explains them."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from diffbot_sim.errors import DataError
+from diffbot_sim.identification.calibration import calibrate, simulation_error
+from diffbot_sim.identification.coordinates import Space
+from diffbot_sim.identification.doubt import doubt
+from diffbot_sim.identification.evidence import delta_bic
+from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction, fit_simulation
+from diffbot_sim.identification.lateness import (
+    lateness_of,
+    may_be_of_interval_before,
+    of_interval_before,
+    timely,
+    timing,
+)
+from diffbot_sim.identification.predictor import MAX_STEP
+from diffbot_sim.identification.result import Structure, Timing
+from diffbot_sim.identification.selection import INDISTINGUISHABLE, Selection, select
+from diffbot_sim.identification.start import restarted
+from diffbot_sim.identification.stretches import Stretch, split, whole
+from diffbot_sim.identification.trials import Progress
+from diffbot_sim.physics.effects import Effect
+from diffbot_sim.physics.model import Model
+from diffbot_sim.records import Run
+
+
+@dataclass(frozen=True)
+class Recordings:
+    """Runs to learn from; runs to validate with, or none: then parts of the first are held out."""
+
+    learned: tuple[Run, ...]
+    validate: tuple[Run, ...]
+
+    @property
+    def all(self) -> tuple[Run, ...]:
+        """All runs."""
+        return self.learned + self.validate
+
+    def each(self, change: Callable[[Run], Run]) -> 'Recordings':
+        """Return the recordings with each run changed."""
+        return Recordings(tuple(map(change, self.learned)), tuple(map(change, self.validate)))
+
+    def timings(self, given: 'Recordings') -> tuple[Timing, ...]:
+        """Return how these were taken otherwise than they had been given."""
+        pairs = zip(given.all, self.all, strict=True)
+        return tuple(filter(None, (timing(one, other) for one, other in pairs)))
+
+
+@dataclass(frozen=True)
+class Found:
+    """What was found in recordings, as they were taken to be timed."""
+
+    recordings: Recordings
+    held_out: tuple[Stretch, ...]
+    recalibrated: Fit
+    selection: Selection
+    unexplained: Structure | None
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The parameters of the structure."""
+        return self.selection.final.space.values(self.selection.final.u)
+
+
+def search(
+    recordings: Recordings, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
+) -> Found:
+    """Search the structures made of these effects, and ask whether the twists are late.
+
+    Raises DataError where the runs are too short or do not move.
+    """
+    found = _found(recordings.each(timely), declared, kinds, progress)
+    learned = found.recordings.learned
+    if not all(may_be_of_interval_before(run, found.values) for run in learned):
+        return found
+    progress('taking twists for means since the sample before')
+    older = _found(found.recordings.each(of_interval_before), declared, kinds, progress)
+    worth = delta_bic(found.selection.final, older.selection.final)
+    as_well = worth > -INDISTINGUISHABLE and not lateness_of(older.values)
+    return older if as_well else found
+
+
+def _found(
+    recordings: Recordings, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
+) -> Found:
+    """Recalibrate, search, and doubt what was found."""
+    fitted, held_out = (
+        (whole(recordings.learned), whole(recordings.validate))
+        if recordings.validate
+        else split(recordings.learned)
+    )
+    _check(fitted)
+    progress('calibrating the declared model')
+    recalibrated = calibrate(Space(declared, ()), fitted)
+    fitted = restarted(recalibrated.model, fitted, MAX_STEP)
+    progress('fitting the noise model')
+    base = fit_prediction(recalibrated.space, fitted, recalibrated.u, FIRST_GAINS)
+    # One-step errors have fewer local minima: where they lead is one more start.
+    again = fit_simulation(base.space, fitted, base.u)
+    recalibrated = min(recalibrated, again, key=simulation_error)
+    selection = select(base, kinds, held_out, progress)
+    progress('looking for structure that is left')
+    return Found(recordings, held_out, recalibrated, *doubt(selection, held_out))
+
+
+def _check(stretches: Sequence[Stretch]) -> None:
+    """Refuse runs from which nothing follows."""
+    if all(float(abs(s.twist).max()) < 1e-3 for s in stretches):
+        names = ', '.join(s.run.name for s in stretches)
+        raise DataError(
+            f'{names}: the robot never moves; record a drive with forces that move it.'
+        )

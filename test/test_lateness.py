@@ -1,0 +1,89 @@
+"""Odometry that is older than its stamps: told by its pose, or by what it makes of a robot."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
+from diffbot_sim.identification import identify
+from diffbot_sim.identification.lateness import lag_behind_pose, timely, timing
+from diffbot_sim.physics import Model
+from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
+from diffbot_sim.records import Odometry, Run
+
+TICK = 1.5e-4  # [m] that a wheel rolls for each count
+HALF = Model().robot.half_separation
+
+
+def driven(model: Model, seed: int = 2) -> Run:
+    """Return a drive with white noise on the twist and the true pose, at 50 Hz."""
+    return rehearse(model, random_forces(seed, 60.0, -9.0, 11.0), Surroundings(), seed)
+
+
+def counted(run: Run, over: int) -> Run:
+    """Return what a driver makes of encoders: poses of counts, twists as means over intervals."""
+    pose, time = run.odometry.pose, run.odometry.time
+    step, heading = np.diff(pose, axis=0), 0.5 * (pose[1:, 2] + pose[:-1, 2])
+    way = np.cumsum(step[:, 0] * np.cos(heading) + step[:, 1] * np.sin(heading))
+    turn = pose[1:, 2] - pose[0, 2]
+    counts = np.floor(np.column_stack([way + HALF * turn, way - HALF * turn]) / TICK) * TICK
+    path = np.column_stack([counts.mean(axis=1), counts @ [0.5, -0.5] / HALF])
+    moved, middle = np.diff(path, axis=0), 0.5 * (path[1:, 1] + path[:-1, 1])
+    where = np.cumsum(moved[:, :1] * np.column_stack([np.cos(middle), np.sin(middle)]), axis=0)
+    poses = np.column_stack([where, path[1:, 1]])[over - 1 :]
+    twist = (path[over:] - path[:-over]) / (time[over + 1 :] - time[1:-over])[:, None]
+    return replace(run, odometry=Odometry(time[over + 1 :], twist, poses))
+
+
+@pytest.mark.parametrize(('over', 'lag'), [(1, 0.01), (5, 0.05), (10, 0.1)])
+def test_mean_lags_the_pose_by_half_of_its_length(over: int, lag: float) -> None:
+    found = lag_behind_pose(counted(driven(Model()), over).odometry)
+    assert found == pytest.approx(lag, abs=1e-3)
+
+
+def test_twist_of_the_time_of_its_pose_is_taken_as_it_is() -> None:
+    run = driven(Model())
+    assert timely(run) is run
+    assert timing(run, timely(run)) is None
+
+
+def test_long_mean_gives_way_to_what_the_pose_tells() -> None:
+    run = counted(driven(Model()), 10)
+    told = timing(run, timely(run))
+    assert told.of_pose
+    assert told.lateness == pytest.approx(0.1, abs=1e-3)
+
+
+def test_noisy_pose_only_tells_by_how_much_the_twist_is_late() -> None:
+    run = counted(driven(Model()), 10)
+    seen = run.odometry
+    noise = np.random.default_rng(1).normal(size=seen.pose.shape) * 0.003
+    run = replace(run, odometry=replace(seen, pose=seen.pose + noise))
+    told = timing(run, timely(run))
+    assert not told.of_pose
+    assert told.lateness == pytest.approx(0.1, abs=0.01)
+
+
+@pytest.mark.parametrize('with_pose', [True, False])
+def test_differences_of_encoders_do_not_make_a_robot_late(with_pose: bool) -> None:
+    run = counted(driven(Model()), 1)
+    if not with_pose:
+        run = replace(run, odometry=replace(run.odometry, pose=None))
+    answer = identify([run], Model())
+    assert answer.verdict == 'nothing_missing'
+    assert [it.lateness for it in answer.timings] == pytest.approx([0.01])
+
+
+def test_true_pose_lets_a_delay_within_an_interval_be_named() -> None:
+    answer = identify([driven(Model(effects=(ActuatorDelay(0.012),)))], Model())
+    (effect,) = answer.effects
+    assert effect.name == 'actuator_delay'
+    assert not answer.timings
+
+
+def test_rolling_mean_hides_no_delay() -> None:
+    run = counted(driven(Model(effects=(ActuatorDelay(0.08),))), 5)
+    (effect,) = identify([run], Model()).effects
+    assert effect.name == 'actuator_delay'
+    assert effect.parameters['time'].value == pytest.approx(0.08, abs=0.002)

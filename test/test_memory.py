@@ -1,0 +1,27 @@
+"""What counts as explained: what past errors do not tell anyway."""
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from diffbot_sim.identification.memory import fall_of_deviance
+
+RANDOM = np.random.default_rng(3)
+WHITE = RANDOM.normal(size=(4000, 2))
+COLOURED = np.asarray(lfilter([0.6], [1.0, -0.8], WHITE, axis=0))
+
+
+def test_what_is_taken_out_of_white_errors_counts_in_full() -> None:
+    signal = 0.2 * np.sin(0.7 * np.arange(4000.0))[:, None] * [1.0, 0.5]
+    plain = np.sum((WHITE + signal) ** 2) - np.sum(WHITE**2)
+    assert fall_of_deviance(WHITE + signal, WHITE) == pytest.approx(plain, rel=0.35)
+
+
+def test_foreseeing_coloured_errors_from_their_past_explains_nothing() -> None:
+    foreseen = 0.5 * np.vstack([np.zeros((1, 2)), COLOURED[:-1]])
+    assert np.sum(COLOURED**2) - np.sum((COLOURED - foreseen) ** 2) > 500.0
+    assert fall_of_deviance(COLOURED, COLOURED - foreseen) < 25.0
+
+
+def test_a_worse_fit_explains_nothing() -> None:
+    assert fall_of_deviance(WHITE, 1.2 * WHITE) == 0.0
