@@ -28,6 +28,7 @@ pytestmark = pytest.mark.skipif(
     reason='no ros2 launch: build and source the package in a ROS 2 workspace, see docs/ros.md',
 )
 FORWARD = Twist(linear=Vector3(x=0.4))
+RECORDED = ['right_wheel/force', 'left_wheel/force', 'odom']
 
 
 @contextmanager
@@ -51,8 +52,9 @@ def part_of(launch: Running, name: str) -> int:
 def test_bringup_drives_as_told_and_leaves_a_bag(tmp_path: Path) -> None:
     bag, words = tmp_path / 'bag', ['bringup_launch.py', 'namespace:=driven', 'record:=true']
     with launched(tmp_path / 'log', *words, f'output:={bag}') as launch, Robot('driven') as robot:
+        robot.until(lambda: all(f'hears {topic}' in launch.said() for topic in RECORDED))
         with robot.publishing('cmd_vel', FORWARD):
-            robot.until(lambda: robot.hear(1)[0].twist.twist.linear.x > 0.3)
+            robot.until(lambda: robot.hear(100)[-1].twist.twist.linear.x > 0.35)
         assert launch.stop(SIGINT) == 0
     assert read_run(bag).run.odometry.twist[:, 0].max() > 0.3
 

@@ -47,7 +47,6 @@ class Recorder(Node):
         super().__init__('recorder', parameter_overrides=chosen)
         live = Live(self, table(RecorderSettings), self._make, self._apply, RecorderSettings.fixed)
         folder = Path(live.value.output or f'{datetime.now():rosbag2_%Y_%m_%d-%H_%M_%S}')
-        self._writer = recording(folder, live.value.storage, _limits(live.value))
         self._sources: dict[str, Source] = {}
         self._listeners: dict[str, Any] = {}
         self._heard: dict[str, int] = {}  # when the last message of a topic came [ns]
@@ -55,7 +54,9 @@ class Recorder(Node):
         self._look()
         self.create_timer(LOOK_AGAIN, self._look)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self.create_timer(FLUSH, self._writer.flush, clock=steady)
+        self.create_timer(FLUSH, self._flush, clock=steady)
+        # Last of all: a signal that ends the node earlier leaves no bag that lacks its end.
+        self._writer = recording(folder, live.value.storage, _limits(live.value))
         self.get_logger().info(f'recording to {folder}')
 
     def destroy_node(self) -> None:
@@ -71,6 +72,9 @@ class Recorder(Node):
             get_logger(f'{self.get_logger().name}.end').warning(
                 f'nothing came on {", ".join(silent)}'
             )
+
+    def _flush(self) -> None:
+        self._writer.flush()
 
     def _look(self) -> None:
         """Listen to what is published; anew where a publisher offers something else."""
