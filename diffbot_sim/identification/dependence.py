@@ -12,6 +12,7 @@ from diffbot_sim.identification.fitting import Fit, joint_bounds, joint_prior, w
 from diffbot_sim.identification.memory import fall_of_deviance
 from diffbot_sim.identification.minimisation import Prior, derivatives, flatter, minimise
 from diffbot_sim.identification.parallel import each
+from diffbot_sim.identification.robust import huber
 from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.identification.variables import VARIABLES
@@ -28,7 +29,8 @@ MOST, TYPICAL = 1.0, 0.1
 class Dependence:
     """How much a free-form force along one axis, depending on one variable, explains.
 
-    fall: of the deviance, to first order until it is realised; amounts: coefficients of the basis
+    fall: of the deviance, to first order until it is realised; beyond: the same, or what is beyond
+    the errors' own past, if less; amounts: coefficients of the basis
     in its units; adaptation: by how much u and gains shift with them, once realised; spread:
     covariance of the amounts, once realised with the parameters as they are; p_block: as for
     effects, like p_value for the best of all that the form was looked at with.
@@ -36,6 +38,7 @@ class Dependence:
 
     basis: Basis
     fall: float
+    beyond: float
     amounts: Array
     adaptation: Array
     spread: Array
@@ -44,7 +47,7 @@ class Dependence:
     @property
     def p_value(self) -> float:
         """The chance of such a fall."""
-        return _of_best(self.basis, float(stats.chi2.sf(self.fall, len(self.amounts))))
+        return _of_best(self.basis, float(stats.chi2.sf(self.beyond, len(self.amounts))))
 
 
 def _of_best(basis: Basis, chance: float) -> float:
@@ -60,6 +63,7 @@ def explained_by(screen: Screen, basis: Basis) -> Dependence:
     spread = sandwich(flat, rest, np.ones(flat.shape[1]))
     return Dependence(
         basis,
+        fall,
         fall,
         amounts,
         np.zeros(len(screen.fit.u) + len(screen.fit.gains)),
@@ -92,7 +96,8 @@ def realised(fit: Fit, basis: Basis) -> Dependence:
     joint = sandwich(slopes, left.ravel(), information)[size:, size:]
     return Dependence(
         basis,
-        fall=fall_of_deviance(fit.whitened, left),
+        fall=max(float(huber(fit.whitened).sum() - huber(left).sum()), 0.0),
+        beyond=fall_of_deviance(fit.whitened, left),
         amounts=point[size:],
         adaptation=(point - start)[:size],
         spread=sandwich(slopes[:, size:], left.ravel(), information[size:]),

@@ -11,7 +11,6 @@ from scipy import stats
 from diffbot_sim.identification.fitting import Fit, whitened
 from diffbot_sim.identification.gains import block_gain, folds_chance
 from diffbot_sim.identification.guards import best_look
-from diffbot_sim.identification.memory import fall_of_deviance
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.projection import Projection
 from diffbot_sim.identification.robust import huber, influence
@@ -60,7 +59,7 @@ class Evidence:
 def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
     """Weigh a large fit against a small one nested in it."""
     added = len(large.u) - len(small.u)
-    ratio = fall_of_deviance(small.whitened * (small.sigma / large.sigma), large.whitened)
+    ratio = small.fall_to(large)
     samples = large.whitened.size
     gain, chance = held_out_gain(small, large, held_out)
     amounts, shapes = _added(small, large)
