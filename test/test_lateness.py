@@ -55,6 +55,14 @@ def test_long_mean_gives_way_to_what_the_pose_tells() -> None:
     assert told.lateness == pytest.approx(0.1, abs=1e-3)
 
 
+def test_nothing_is_told_across_a_hole() -> None:
+    seen = counted(driven(Model()), 10).odometry
+    rest = (seen.time < 20.0) | (seen.time > 23.0)
+    holed = Odometry(seen.time[rest], seen.twist[rest], seen.pose[rest])
+    taken = timely(Run('holed', driven(Model()).commands, holed)).odometry
+    assert not np.any((taken.time > 20.0) & (taken.time < 23.0))
+
+
 def test_noisy_pose_only_tells_by_how_much_the_twist_is_late() -> None:
     run = counted(driven(Model()), 10)
     seen = run.odometry

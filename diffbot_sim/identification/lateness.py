@@ -21,12 +21,16 @@ from diffbot_sim.records import Array, Odometry, Run
 LATE = ('actuator_delay.time', 'actuator_lag.time_constant')
 # Longest lag behind the pose [s] that is looked for, and grid points in an interval.
 LONGEST, FINENESS = 0.5, 4
+# A shorter run [s] does not tell it.
+SHORTEST = 10.0
 # A pose that moves otherwise than the twist says, by more than this share, tells nothing.
 ALIKE = 0.3
 # By how much twice the log-likelihood must rise where a lag behind the pose is believed.
 BEYOND_CHANCE = 50.0
 # The share of noise in a pose's changes up to which they tell more than a late twist.
 CLEAR = 0.1
+# Samples that are so many intervals apart have a hole between them.
+HOLE = 1.5
 # A speed [m/s, rad/s] that is as good as none.
 TINY = 1e-9
 
@@ -48,13 +52,18 @@ def timely(run: Run) -> Run:
 
 
 def as_pose_moves(run: Run) -> Run:
-    """Return a run whose twist is the change of the pose, told in the middle of each interval."""
+    """Return a run whose twist is the change of the pose, told in the middle of each interval.
+
+    Not across holes: there a mean hides what happened.
+    """
     seen = run.odometry
     if seen.pose is None:
         return run
-    twist = np.diff(_path(seen.pose), axis=0) / np.diff(seen.time)[:, None]
+    apart = np.diff(seen.time)
+    kept = apart < HOLE * median_interval(seen.time)
+    twist = np.diff(_path(seen.pose), axis=0) / apart[:, None]
     time, pose = (0.5 * (values[1:] + values[:-1]) for values in (seen.time, seen.pose))
-    return replace(run, odometry=Odometry(time, twist, pose))
+    return replace(run, odometry=Odometry(time[kept], twist[kept], pose[kept]))
 
 
 def timing(given: Run, taken: Run) -> Timing | None:
@@ -99,7 +108,7 @@ def earlier(run: Run, late: float) -> Run:
 
 def lag_behind_pose(odometry: Odometry) -> float:
     """Return by how much the twist lags the change of the pose [s]; 0 where that is not sure."""
-    if odometry.pose is None:
+    if odometry.pose is None or odometry.time[-1] - odometry.time[0] < SHORTEST:
         return 0.0
     step = median_interval(odometry.time) / FINENESS
     misfit = partial(_misfit, odometry, _path(odometry.pose))
