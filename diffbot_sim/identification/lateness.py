@@ -87,8 +87,9 @@ def may_be_of_interval_before(run: Run, values: Mapping[str, float]) -> bool:
     A pose that was not integrated from the twist would tell.
     """
     interval = median_interval(run.odometry.time)
-    told = run.odometry.pose is None or lag_behind_pose(run.odometry) > 0.25 * interval
-    return told and 0.0 < lateness_of(values) < interval
+    if not 0.0 < lateness_of(values) < interval:
+        return False
+    return run.odometry.pose is None or lag_behind_pose(run.odometry) > 0.25 * interval
 
 
 def lateness_of(values: Mapping[str, float]) -> float:
