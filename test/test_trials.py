@@ -28,6 +28,13 @@ def test_parts_of_a_run_may_confirm_what_its_end_leaves_open() -> None:
     assert judge(short.of_best(40), tried=16) != SUPPORTED
 
 
+def test_held_out_data_must_not_speak_against_what_parts_of_a_run_tell() -> None:
+    lost = Evidence(60.0, 1e-15, 0.004, -0.1, 0.9, 1e-4)
+    assert judge(lost, tried=16) == 'does not predict held-out data better'
+    silent = replace(lost, held_out_gain=0.0, p_held_out=1.0)  # where it does not act at all
+    assert judge(silent, tried=16) == SUPPORTED
+
+
 def test_law_of_time_must_prove_right_at_the_end() -> None:
     wrong = Evidence(500.0, 1e-50, 1e-9, 0.04, 0.6, nan)
     assert judge(wrong, tried=16) == 'does not predict held-out data better'

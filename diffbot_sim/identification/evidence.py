@@ -45,6 +45,11 @@ class Evidence:
         return best_look(*(p for p in (self.p_held_out, self.p_folds) if not isnan(p)))
 
     @property
+    def is_refuted(self) -> bool:
+        """Whether held-out data speak against it: they lose by it, and not in a few blocks only."""
+        return self.held_out_gain < 0.0 and self.p_held_out >= 0.5
+
+    @property
     def is_contradicted(self) -> bool:
         """Whether held-out data and other parts of the runs would rather do without it."""
         return self.p_held_out >= 0.5 and self.p_folds >= 0.5

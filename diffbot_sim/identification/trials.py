@@ -132,6 +132,8 @@ def judge(evidence: Evidence, tried: int) -> str:
     """Say whether an effect, one of so many tried, may enter, or why not."""
     if may_be_chance(evidence, tried):
         return CHANCE
+    if evidence.is_refuted:
+        return UNCONFIRMED
     if lasting(evidence.p_block, evidence.p_elsewhere):
         return SUPPORTED
     return PASSING if evidence.p_elsewhere <= ELSEWHERE_LEVEL else UNCONFIRMED
