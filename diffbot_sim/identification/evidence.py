@@ -46,7 +46,7 @@ class Evidence:
 
     @property
     def is_refuted(self) -> bool:
-        """Whether held-out data speak against it: they lose by it, and not in a few blocks only."""
+        """Whether held-out data speak against it: most of them lose by it."""
         return self.held_out_gain < 0.0 and self.p_held_out >= 0.5
 
     @property
