@@ -30,10 +30,10 @@ class Dependence:
     """How much a free-form force along one axis, depending on one variable, explains.
 
     fall: of the deviance, to first order until it is realised; beyond: the same, or what is beyond
-    the errors' own past, if less; amounts: coefficients of the basis
-    in its units; adaptation: by how much u and gains shift with them, once realised; spread:
-    covariance of the amounts, once realised with the parameters as they are; p_block: as for
-    effects, like p_value for the best of all that the form was looked at with.
+    the errors' own past, if less; amounts: coefficients of the basis in its units; adaptation: by
+    how much u and gains shift with them, once realised; spread: covariance of the amounts, once
+    realised with the parameters as they are; p_block: as for effects, like p_value for the best of
+    all that the form was looked at with.
     """
 
     basis: Basis

@@ -10,7 +10,8 @@ from scipy import stats
 
 from diffbot_sim.identification.fitting import Fit, whitened
 from diffbot_sim.identification.gains import block_gain, folds_chance
-from diffbot_sim.identification.guards import best_look
+from diffbot_sim.identification.guards import AGAINST, best_look
+from diffbot_sim.identification.memory import fall_of_deviance
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.projection import Projection
 from diffbot_sim.identification.robust import huber, influence
@@ -47,12 +48,12 @@ class Evidence:
     @property
     def is_refuted(self) -> bool:
         """Whether held-out data speak against it: most of them lose by it."""
-        return self.held_out_gain < 0.0 and self.p_held_out >= 0.5
+        return self.held_out_gain < 0.0 and self.p_held_out >= AGAINST
 
     @property
     def is_contradicted(self) -> bool:
         """Whether held-out data and other parts of the runs would rather do without it."""
-        return self.p_held_out >= 0.5 and self.p_folds >= 0.5
+        return self.p_held_out >= AGAINST and self.p_folds >= AGAINST
 
     def of_best(self, looks: int) -> 'Evidence':
         """Return the evidence for a structure that was the best of so many."""
@@ -64,7 +65,7 @@ class Evidence:
 def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
     """Weigh a large fit against a small one nested in it."""
     added = len(large.u) - len(small.u)
-    ratio = small.fall_to(large)
+    ratio = fall_of_deviance(small.whitened * (small.sigma / large.sigma), large.whitened)
     samples = large.whitened.size
     gain, chance = held_out_gain(small, large, held_out)
     amounts, shapes = _added(small, large)

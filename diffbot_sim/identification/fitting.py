@@ -7,7 +7,6 @@ from functools import cached_property
 import numpy as np
 
 from diffbot_sim.identification.coordinates import PRIOR_DEVIATION, Space
-from diffbot_sim.identification.memory import fall_of_deviance
 from diffbot_sim.identification.minimisation import Prior, derivatives, minimise
 from diffbot_sim.identification.predictor import NO_GAIN, Prediction, predict
 from diffbot_sim.identification.robust import huber
@@ -58,10 +57,6 @@ class Fit:
     def deviance(self, sigma: Array) -> float:
         """Return twice the robust cost at a given scale."""
         return float(huber(self.whitened * (self.sigma / sigma)).sum())
-
-    def fall_to(self, larger: 'Fit') -> float:
-        """Return by how much the deviance falls to a larger fit's, at the scale of that one."""
-        return fall_of_deviance(self.whitened * (self.sigma / larger.sigma), larger.whitened)
 
     @cached_property
     def jacobian(self) -> Array:

@@ -12,6 +12,9 @@ LIKELIHOOD_LEVEL, BLOCK_LEVEL, ELSEWHERE_LEVEL = 1e-3, 1e-2, 0.05
 EITHER_LEVEL = 0.05
 BOTH_LEVEL = float(stats.combine_pvalues([BLOCK_LEVEL, ELSEWHERE_LEVEL]).pvalue)
 
+# Data whose gain is as likely by chance as this rather speak against what they should confirm.
+AGAINST = 0.5
+
 
 def is_chance(p_value: float, tried: int) -> bool:
     """Say whether chance may explain as much, with so many tried."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from diffbot_sim.identification.fitting import Fit, predictions
+from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.views import views
 from diffbot_sim.records import Array
 
@@ -34,12 +34,7 @@ def wheel_orders(fit: Fit) -> tuple[float, ...]:
 def rates(fit: Fit) -> tuple[float, ...]:
     """Return the cycles per second at which the innovations are strongest."""
     time = np.concatenate([stretch.time for stretch in fit.stretches])
-    errors = np.concatenate(
-        [
-            found.innovation * stretch.used[:, None] / fit.sigma
-            for stretch, found in zip(fit.stretches, predictions(fit, fit.stretches), strict=True)
-        ]
-    )
+    errors = np.concatenate([v.innovation / fit.sigma for v in views(fit, fit.stretches)])
     spacing = 1.0 / (FINENESS * max(float(np.ptp(s.time)) for s in fit.stretches))
     interval = max(stretch.interval for stretch in fit.stretches)
     highest = min(HIGHEST_RATE, 1.0 / (SAMPLES_PER_CYCLE * interval))
@@ -52,8 +47,8 @@ def rates(fit: Fit) -> tuple[float, ...]:
 def _by_wheel(fit: Fit) -> tuple[Array, Array]:
     """Return wheel angles [rad] and the wheels' share of the innovations, columns right, left."""
     seen = views(fit, fit.stretches)
-    errors = [(v.prediction.innovation * v.stretch.used[:, None]) @ v.mix for v in seen]
-    return np.concatenate([v.wheel_angle for v in seen]), np.concatenate(errors)
+    angles, errors = zip(*((v.wheel_angle, v.innovation @ v.mix) for v in seen), strict=True)
+    return np.concatenate(angles), np.concatenate(errors)
 
 
 def _strongest(orders: Array, angles: Array, errors: Array, spacing: float) -> tuple[float, ...]:

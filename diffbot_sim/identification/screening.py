@@ -150,15 +150,11 @@ class Screen:
 
     def _slope(self, space: Space, neutral: Array, index: int) -> Array:
         """Return the slope of the errors along an amount, of both sides where both are valid."""
-        by = partial(
-            difference, partial(self._errors_at, space), neutral, self.fit.whitened, index
-        )
-        one = by(AMOUNT)
-        return (
-            one
-            if neutral[index] - AMOUNT < space.bounds()[0][index]
-            else flatter(one, by(-AMOUNT))
-        )
+        errors = partial(self._errors_at, space)
+        slope = partial(difference, errors, neutral, self.fit.whitened, index)
+        if neutral[index] - AMOUNT < space.bounds()[0][index]:
+            return slope(AMOUNT)
+        return flatter(slope(AMOUNT), slope(-AMOUNT))
 
     def _best(self, space: Space, options: Sequence['_Option']) -> tuple[Array, ...]:
         """Return the point that promises most, and of the next ones that with the least error."""

@@ -42,6 +42,11 @@ class View:
         return travel(self.stretch, self.prediction.twist) @ self.mix / radius
 
     @property
+    def innovation(self) -> Array:
+        """Errors of the prediction in v and ω, 0 where they do not count, shape (k, 2)."""
+        return self.prediction.innovation * self.stretch.used[:, None]
+
+    @property
     def mix(self) -> Array:
         """What takes (v, ω) to the speeds of the wheels, shape (2, 2)."""
         b = self.fit.model.half_separation

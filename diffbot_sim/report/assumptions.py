@@ -1,7 +1,5 @@
 """What the answer takes for granted: a reader who knows better knows what not to believe."""
 
-import numpy as np
-
 from diffbot_sim.identification import agreement, guards, stretches
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.report.numerals import significant
@@ -25,7 +23,7 @@ def _robot(result: Identification) -> list[str]:
 
 
 def _recording(result: Identification) -> list[str]:
-    rates = [1.0 / float(np.median(np.diff(run.time))) for run in result.comparisons]
+    rates = [1.0 / stretches.median_interval(run.time) for run in result.comparisons]
     at = f' It was used at {_listed(rates)} Hz.' if rates else ''
     return [
         'The recorded forces are those that were asked of the actuators, without error, each '

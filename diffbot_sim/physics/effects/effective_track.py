@@ -35,5 +35,5 @@ class EffectiveTrack(Effect):
 
     @property
     def track(self) -> float:
-        """By how much the wheels are farther apart."""
+        """By what factor the wheels are farther apart."""
         return 1.0 + self.widening
