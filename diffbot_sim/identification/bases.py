@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from diffbot_sim.identification.fitting import Fit
-from diffbot_sim.identification.stretches import Stretch
+from diffbot_sim.identification.stretches import Stretch, largest_command
 from diffbot_sim.identification.variables import VARIABLES
 from diffbot_sim.identification.views import View, views
 from diffbot_sim.records import Array
@@ -75,7 +75,7 @@ class Basis:
 def bases(fit: Fit, stretches: Sequence[Stretch]) -> list[Basis]:
     """Return every basis on these stretches."""
     seen = views(fit, stretches)
-    unit = UNIT_SHARE * max(float(np.abs(s.run.commands.force).max()) for s in stretches)
+    unit = UNIT_SHARE * largest_command(stretches)
     return [
         Basis(axis, name, grid, unit, fit.model.half_separation, columns)
         for name, grid, columns in _evaluated(seen)

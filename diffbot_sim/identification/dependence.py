@@ -10,8 +10,7 @@ from diffbot_sim.identification.bases import UNIT_SHARE, Basis
 from diffbot_sim.identification.evidence import sandwich, wald_p
 from diffbot_sim.identification.fitting import Fit, joint_bounds, joint_prior, whitened
 from diffbot_sim.identification.memory import fall_of_deviance
-from diffbot_sim.identification.minimisation import Prior, derivatives, flatter, minimise
-from diffbot_sim.identification.parallel import each
+from diffbot_sim.identification.minimisation import Prior, derivatives, minimise
 from diffbot_sim.identification.robust import huber
 from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.stretches import Stretch
@@ -57,7 +56,7 @@ def _of_best(basis: Basis, chance: float) -> float:
 
 def explained_by(screen: Screen, basis: Basis) -> Dependence:
     """Return how much the functions of a basis explain of a residual, to first order."""
-    slopes = sensitivity(screen.fit, screen.fit.stretches, basis)
+    slopes = sensitivity(screen, basis)
     fall, amounts, flat = screen.explained(slopes)
     rest = screen.residual + flat @ amounts
     spread = sandwich(flat, rest, np.ones(flat.shape[1]))
@@ -112,18 +111,14 @@ def acting(fit: Fit, basis: Basis, at: Array, stretches: Sequence[Stretch]) -> A
     return whitened(stretches, fit.space.model(u), gains, fit.sigma, pushes)
 
 
-def sensitivity(fit: Fit, stretches: Sequence[Stretch], basis: Basis) -> Array:
+def sensitivity(screen: Screen, basis: Basis) -> Array:
     """Return the derivative of whitened errors by the amounts of a basis, shape (n, 2, q)."""
-    base = whitened(stretches, fit.model, fit.gains, fit.sigma)
-
-    def pushed(index: int, share: float) -> Array:
-        pushes = [share * basis.push(place, index) for place in range(len(stretches))]
-        return (whitened(stretches, fit.model, fit.gains, fit.sigma, pushes) - base) / share
-
-    def column(index: int) -> Array:
-        return flatter(pushed(index, 1.0), pushed(index, -1.0))
-
-    return np.stack(each(column, range(basis.size)), axis=-1)
+    rows = []
+    for index, stretch in enumerate(screen.fit.stretches):
+        pushes = [basis.push(index, function) for function in range(basis.size)]
+        errors = screen.responses[index].errors(np.stack(pushes, axis=-1))
+        rows.append(errors[stretch.used > 0])
+    return np.concatenate(rows) / screen.fit.sigma[:, None]
 
 
 def worth_of(dependence: Dependence, fit: Fit) -> float:

@@ -12,10 +12,9 @@ import numpy as np
 from numba import types
 
 from diffbot_sim.identification.stretches import Stretch
-from diffbot_sim.physics import contact
-from diffbot_sim.physics.compiled import compiled, entry
+from diffbot_sim.physics.compiled import entry
 from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
-from diffbot_sim.physics.contact import FREE, LEFT, RIGHT, YAW, Modes
+from diffbot_sim.physics.correction import correct
 from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import scheduled
@@ -31,6 +30,7 @@ from diffbot_sim.physics.simulation import (
     inputs_of,
     workspace,
 )
+from diffbot_sim.physics.snapshot import keep, snapshot_size
 from diffbot_sim.physics.vector import HEADING, SPEED_LEFT, SPEED_RIGHT
 from diffbot_sim.records import Array
 
@@ -45,12 +45,14 @@ class Prediction:
     """Errors of the one-step prediction, and what the predictor held to be true.
 
     innovation: measured - predicted twist, shape (k, 2); twist: corrected, shape (k, 2);
-    disturbance: estimated force [N] and torque [N·m] on the body, shape (k, 2).
+    disturbance: estimated force [N] and torque [N·m] on the body, shape (k, 2); snapshots: what
+    the next step sets out from, a row for each sample.
     """
 
     innovation: Array
     twist: Array
     disturbance: Array
+    snapshots: Array
 
 
 def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = None) -> Prediction:
@@ -60,12 +62,13 @@ def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = N
     body after each sample.
     """
     count, model = len(stretch.time), embedded(model)
-    out = np.zeros((count, 6))
     commands = scheduled(model, stretch.run.commands)
+    states = initial_states(model, commands, float(stretch.time[0]))
+    out, snapshots = np.zeros((count, 6)), np.empty((count, snapshot_size(states)))
     _predict(
         *compose(tuple(type(effect) for effect in model.effects)),
         model.pack(),
-        initial_states(model, commands, float(stretch.time[0])),
+        states,
         initial_vector(model, stretch.start),
         np.ascontiguousarray(commands.time),
         np.ascontiguousarray(commands.force),
@@ -77,29 +80,16 @@ def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = N
         np.zeros((count, 2)) if push is None else np.ascontiguousarray(push),
         *workspace(),
         out,
+        snapshots,
     )
-    return Prediction(out[:, 0:2], out[:, 2:4], out[:, 4:6])
-
-
-@compiled
-def _correct(z: Array, modes: Modes, b: float, v: float, omega: float) -> None:
-    """Change the speed of what slides; what sticks stays, and nothing is pushed through zero."""
-    if modes[YAW] == 0:
-        omega = 0.0
-    if modes[RIGHT] != 0:
-        z[SPEED_RIGHT] += v + b * omega
-    if modes[LEFT] != 0:
-        z[SPEED_LEFT] += v - b * omega
-    contact.arrive(z, modes)
-    if modes[RIGHT] == 0 and modes[LEFT] == 0 and modes[YAW] != FREE:
-        modes[YAW] = 0
+    return Prediction(out[:, 0:2], out[:, 2:4], out[:, 4:6], snapshots)
 
 
 @entry(
     types.void(
         *FUNCTION_TYPES,
         *(ARRAY, ARRAY, ARRAY, ARRAY, MATRIX, types.float64),
-        *(ARRAY, MATRIX, ARRAY, ARRAY, MATRIX, INTEGERS, MATRIX, MATRIX),
+        *(ARRAY, MATRIX, ARRAY, ARRAY, MATRIX, INTEGERS, MATRIX, MATRIX, MATRIX),
     )
 )
 def _predict(  # type: ignore[no-untyped-def]
@@ -119,8 +109,9 @@ def _predict(  # type: ignore[no-untyped-def]
     modes,
     work,
     out,
+    snapshots,
 ) -> None:
-    """Fill out: innovation, corrected twist, disturbance."""
+    """Fill out: innovation, corrected twist, disturbance; and a snapshot after each sample."""
     drive, b = Drive(command_time, force, max_step), params[2]
     current = command_at(drive, -1, times[0])
     initial_modes(laws, params, states, z, modes, inputs_of(drive, current, 0.0, 0.0), times[0])
@@ -146,7 +137,7 @@ def _predict(  # type: ignore[no-untyped-def]
             error_v = twist[k, 0] - 0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT])
             error_omega = twist[k, 1] - (z[SPEED_RIGHT] - z[SPEED_LEFT]) / (2.0 * b)
             out[k, 0], out[k, 1] = error_v, error_omega
-            _correct(z, modes, b, gains[0] * error_v, gains[3] * error_omega)
+            correct(z, modes, b, gains[0] * error_v, gains[3] * error_omega)
             pushing *= gains[2] ** interval
             turning *= gains[5] ** interval
             pushing += gains[1] * params[0] / interval * error_v
@@ -155,3 +146,4 @@ def _predict(  # type: ignore[no-untyped-def]
         out[k, 2] = 0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT])
         out[k, 3] = (z[SPEED_RIGHT] - z[SPEED_LEFT]) / (2.0 * b)
         out[k, 4], out[k, 5] = pushing, turning
+        keep(z, modes, states, snapshots[k])

@@ -14,7 +14,9 @@ from diffbot_sim.identification.minimisation import difference, flatter
 from diffbot_sim.identification.parallel import each
 from diffbot_sim.identification.periodicity import wheel_orders
 from diffbot_sim.identification.projection import Projection
+from diffbot_sim.identification.response import Response, responses
 from diffbot_sim.identification.robust import influence
+from diffbot_sim.identification.stretches import largest_command
 from diffbot_sim.identification.views import views
 from diffbot_sim.physics.effects import Effect, Excitation
 from diffbot_sim.records import Array
@@ -108,11 +110,16 @@ class Screen:
         """What the fitted stretches offer to starting points."""
         stretches, seen = self.fit.stretches, views(self.fit, self.fit.stretches)
         return Excitation(
-            force=max(float(np.abs(s.run.commands.force).max()) for s in stretches),
+            force=largest_command(stretches),
             duration=max(float(s.time[-1]) for s in stretches),
             orders=wheel_orders(self.fit),
             power=max(0.01, *(float((v.force * v.wheel_speed).max()) for v in seen)),
         )
+
+    @cached_property
+    def responses(self) -> tuple[Response, ...]:
+        """How the errors on each stretch answer to pushes on the body."""
+        return responses(self.fit)
 
     def _amounts(self, space: Space, kind: type[Effect], at: Array) -> '_Option':
         """Return the amounts of an effect, of the shape that `at` has, that explain most."""

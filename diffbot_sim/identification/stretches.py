@@ -75,6 +75,11 @@ def thin(run: Run) -> Run:
     return run
 
 
+def largest_command(stretches: Sequence[Stretch]) -> float:
+    """Return the largest force that was commanded [N]."""
+    return max(float(np.abs(stretch.run.commands.force).max()) for stretch in stretches)
+
+
 def _surplus(time: Array, highest: float) -> int:
     """Return how many samples become one at most at the highest rate [Hz]."""
     interval = median_interval(time)

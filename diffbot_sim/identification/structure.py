@@ -70,7 +70,7 @@ def _is_beyond_doubt(
 
 def _folds_chance(screen: Screen, basis: Basis) -> float:
     """Return the chance of what it predicts of each part of the runs from others, first order."""
-    slopes = screen.project(sensitivity(screen.fit, screen.fit.stretches, basis))
+    slopes = screen.project(sensitivity(screen, basis))
     return folds_chance(screen.residual, slopes.reshape(-1, basis.size))
 
 

@@ -1,0 +1,21 @@
+"""A change of speed from outside, as a measurement makes it: what sticks stays."""
+
+from diffbot_sim.physics import contact
+from diffbot_sim.physics.compiled import compiled
+from diffbot_sim.physics.contact import FREE, LEFT, RIGHT, YAW, Modes
+from diffbot_sim.physics.vector import SPEED_LEFT, SPEED_RIGHT
+from diffbot_sim.records import Array
+
+
+@compiled
+def correct(z: Array, modes: Modes, b: float, v: float, omega: float) -> None:
+    """Change the speed of what slides by v [m/s] and omega [rad/s]; nothing goes through zero."""
+    if modes[YAW] == 0:
+        omega = 0.0
+    if modes[RIGHT] != 0:
+        z[SPEED_RIGHT] += v + b * omega
+    if modes[LEFT] != 0:
+        z[SPEED_LEFT] += v - b * omega
+    contact.arrive(z, modes)
+    if modes[RIGHT] == 0 and modes[LEFT] == 0 and modes[YAW] != FREE:
+        modes[YAW] = 0

@@ -1,0 +1,31 @@
+"""At which orders errors repeat."""
+
+import numpy as np
+import pytest
+
+from diffbot_sim.identification.periodicity import _power, _strongest
+
+ORDERS = np.arange(0.2, 6.0, 0.004)
+
+
+def turned(seed: int):
+    """Return angles of two wheels that go to and fro, and noise."""
+    generator = np.random.default_rng(seed)
+    return np.cumsum(generator.normal(0.1, 0.3, (3000, 2)), axis=0), generator.normal(
+        size=(3000, 2)
+    )
+
+
+@pytest.mark.parametrize('seed', range(3))
+def test_power_is_that_of_the_waves_summed_one_by_one(seed) -> None:
+    angles, errors = turned(seed)
+    waves = np.exp(1j * ORDERS[:, None, None] * angles)
+    wanted = np.sum(np.abs(np.sum(errors * waves, axis=1)) ** 2, axis=1)
+    assert _power(ORDERS, angles, errors) == pytest.approx(wanted, abs=0.01 * wanted.max())
+
+
+@pytest.mark.parametrize('order', [0.73, 2.0, 5.417])
+def test_strongest_order_is_that_of_the_wave_in_the_errors(order) -> None:
+    angles, errors = turned(1)
+    found = _strongest(ORDERS, angles, errors + 0.3 * np.sin(order * angles + 1.0), 0.004)
+    assert found[0] == pytest.approx(order, abs=0.002)
