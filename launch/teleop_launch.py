@@ -9,6 +9,7 @@ from pathlib import Path
 from shlex import split
 from shutil import which
 
+from ament_index_python.packages import get_packages_with_prefixes
 from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, LogInfo, OpaqueFunction
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch_ros.actions import Node
@@ -17,6 +18,10 @@ from launch import Action, LaunchContext, LaunchDescription
 
 BRINGUP = PythonLaunchDescriptionSource(str(Path(__file__).with_name('bringup_launch.py')))
 TELEOP = 'teleop_twist_keyboard'
+MISSING = (
+    f'{TELEOP} is not installed: no keyboard. '
+    'Install it (ros-$ROS_DISTRO-teleop-twist-keyboard), or publish cmd_vel otherwise'
+)
 
 
 def generate_launch_description() -> LaunchDescription:
@@ -36,6 +41,8 @@ def generate_launch_description() -> LaunchDescription:
 
 def _teleop(context: LaunchContext) -> list[Action]:
     given = context.launch_configurations
+    if TELEOP not in get_packages_with_prefixes():
+        return [LogInfo(msg=MISSING)]
     stamped = given['enable_stamped_cmd_vel'] == 'true'
     if not _opens(given['terminal']):
         return [LogInfo(msg=f'In a second terminal: {_command(given["namespace"], stamped)}')]

@@ -74,8 +74,10 @@ def test_robot_that_loses_its_controller_ends_with_an_error(tmp_path: Path) -> N
     words = ['bringup_launch.py', 'namespace:=bereft']
     with launched(tmp_path / 'log', *words) as launch, Robot('bereft') as robot:
         robot.hear(1)
+        left = Path(f'/proc/{part_of(launch, "simulator")}')
         kill(part_of(launch, 'pi_controller'), SIGKILL)
         assert launch.process.wait(PATIENCE) == 1
+        assert not left.exists()
 
 
 def test_parameter_file_that_is_not_there_is_named(tmp_path: Path) -> None:
