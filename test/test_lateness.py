@@ -63,14 +63,24 @@ def test_nothing_is_told_across_a_hole() -> None:
     assert not np.any((taken.time > 20.0) & (taken.time < 23.0))
 
 
-def test_noisy_pose_only_tells_by_how_much_the_twist_is_late() -> None:
+def test_of_a_noisy_pose_the_changes_over_the_lag_are_taken() -> None:
     run = counted(driven(Model()), 10)
     seen = run.odometry
     noise = np.random.default_rng(1).normal(size=seen.pose.shape) * 0.003
     run = replace(run, odometry=replace(seen, pose=seen.pose + noise))
-    told = timing(run, timely(run))
-    assert not told.of_pose
-    assert told.lateness == pytest.approx(0.1, abs=0.01)
+    taken = timely(run)
+    assert timing(run, taken).of_pose
+    assert np.diff(taken.odometry.time) == pytest.approx(0.1)
+
+
+def test_tracker_whose_twists_are_means_over_a_noisy_pose_makes_no_robot_strange() -> None:
+    run = driven(Model())
+    seen = run.odometry
+    noise = np.random.default_rng(1).normal(size=seen.pose.shape) * [0.0006, 0.0006, 0.0015]
+    answer = identify(
+        [counted(replace(run, odometry=replace(seen, pose=seen.pose + noise)), 6)], Model()
+    )
+    assert answer.verdict == 'nothing_missing'
 
 
 @pytest.mark.parametrize('with_pose', [True, False])

@@ -14,7 +14,7 @@ from scipy.optimize import minimize_scalar
 
 from diffbot_sim.identification.norms import white_noise
 from diffbot_sim.identification.result import Timing
-from diffbot_sim.identification.stretches import median_interval
+from diffbot_sim.identification.stretches import averaged, median_interval
 from diffbot_sim.records import Array, Odometry, Run
 
 # What makes a robot late: parameters whose sum is how late it is [s].
@@ -39,16 +39,16 @@ def timely(run: Run) -> Run:
     """Return a run whose twist is of the time of its pose.
 
     A lag of up to an interval is left as it is: poses that are integrated from the twist lead it
-    or lag behind it by half of one. A longer mean hides what is fast: unless the pose is too
-    noisy, the twist is taken from its changes.
+    or lag behind it by half of one. A longer mean hides what is fast: the twist is taken from the
+    pose's changes, of a noisy pose from those over the lag, which is half as long as the mean.
     """
-    lag = lag_behind_pose(run.odometry)
-    if lag <= median_interval(run.odometry.time):
+    lag, interval = lag_behind_pose(run.odometry), median_interval(run.odometry.time)
+    if lag <= interval:
         return run
     moved = as_pose_moves(run)
     twist = moved.odometry.twist
     clear = np.all(white_noise(twist) < CLEAR * np.sqrt(np.mean(twist**2, axis=0)))
-    return moved if clear else earlier(run, lag)
+    return moved if clear else as_pose_moves(averaged(run, round(lag / interval)))
 
 
 def as_pose_moves(run: Run) -> Run:

@@ -68,11 +68,15 @@ def thin(run: Run) -> Run:
     if many > 1:
         firsts = given.time[: len(given.time) // many * many : many]
         run = replace(run, commands=Commands(firsts, _averaged(given.force, many)))
-    if group > 1:
-        pose = None if seen.pose is None else _averaged(seen.pose, group)
-        time, twist = _averaged(seen.time, group), _averaged(seen.twist, group)
-        run = replace(run, odometry=Odometry(time, twist, pose))
-    return run
+    return averaged(run, group) if group > 1 else run
+
+
+def averaged(run: Run, group: int) -> Run:
+    """Return a run of which so many odometry samples have become one each."""
+    seen = run.odometry
+    pose = None if seen.pose is None else _averaged(seen.pose, group)
+    time, twist = _averaged(seen.time, group), _averaged(seen.twist, group)
+    return replace(run, odometry=Odometry(time, twist, pose))
 
 
 def largest_command(stretches: Sequence[Stretch]) -> float:
