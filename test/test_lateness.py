@@ -51,7 +51,7 @@ def test_twist_of_the_time_of_its_pose_is_taken_as_it_is() -> None:
 def test_long_mean_gives_way_to_what_the_pose_tells() -> None:
     run = counted(driven(Model()), 10)
     told = timing(run, timely(run))
-    assert told.of_pose
+    assert told.taken == 'pose'
     assert told.lateness == pytest.approx(0.1, abs=1e-3)
 
 
@@ -69,7 +69,7 @@ def test_of_a_noisy_pose_the_changes_over_the_lag_are_taken() -> None:
     noise = np.random.default_rng(1).normal(size=seen.pose.shape) * 0.003
     run = replace(run, odometry=replace(seen, pose=seen.pose + noise))
     taken = timely(run)
-    assert timing(run, taken).of_pose
+    assert timing(run, taken).taken == 'pose'
     assert np.diff(taken.odometry.time) == pytest.approx(0.1)
 
 

@@ -99,10 +99,15 @@ def test_run_that_disagrees_is_named_at_once(told: Callable[[Identification], st
 def test_reader_learns_when_twists_were_not_taken_as_stamped(
     told: Callable[[Identification], str],
 ) -> None:
-    late = Timing('first drive', 0.0102, of_pose=False), Timing('second drive', 0.05, of_pose=True)
-    text = ' '.join(told(replace(by_hand.nothing_missing(), timings=late)).split())
+    late = [
+        Timing('first drive', 0.0102, 'mean'),
+        Timing('second drive', 0.05, 'pose'),
+        Timing('third drive', 0.04, 'filter'),
+    ]
+    text = ' '.join(told(replace(by_hand.nothing_missing(), timings=tuple(late))).split())
     assert 'first drive: the twists were taken as 10.2 ms older than their stamps' in text
     assert 'second drive: the twists lag the poses by 50 ms' in text
+    assert 'third drive: the twists were taken as they were before a low-pass filter' in text
 
 
 def test_of_two_runs_that_disagree_neither_is_called_odd() -> None:

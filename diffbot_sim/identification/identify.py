@@ -73,7 +73,7 @@ def identify(
         empirical=table_of(unexplained) if closed and unexplained else None,
         horizons=horizons(models, watched, held_out, errors),
         runs=agreement(selection.final, found.recordings.all),
-        timings=found.recordings.timings(recordings),
+        timings=found.timings(recordings),
     )
 
 

@@ -71,9 +71,9 @@ def timing(given: Run, taken: Run) -> Timing | None:
     if taken is given:
         return None
     if taken.odometry.twist is not given.odometry.twist:
-        return Timing(given.name, lag_behind_pose(given.odometry), of_pose=True)
+        return Timing(given.name, lag_behind_pose(given.odometry), 'pose')
     late = float(given.odometry.time[0] - taken.odometry.time[0])
-    return Timing(given.name, late, of_pose=False)
+    return Timing(given.name, late, 'mean')
 
 
 def of_interval_before(run: Run) -> Run:

@@ -1,6 +1,7 @@
 """What identification concludes: frozen records that reports read and never change."""
 
 from dataclasses import dataclass, field
+from typing import Literal
 
 from diffbot_sim.physics.effects.empirical_force import EmpiricalForce
 from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForce
@@ -123,12 +124,13 @@ class Horizon:
 class Timing:
     """A run whose twists are older than their stamps.
 
-    lateness: by how much [s]; of_pose: whether they were taken from the pose instead.
+    lateness: by how much [s]; taken: what was done: 'pose', taken from the pose instead; 'mean',
+    as means since the sample before; 'filter', as they were before a low-pass filter.
     """
 
     run: str
     lateness: float
-    of_pose: bool
+    taken: Literal['pose', 'mean', 'filter']
 
 
 @dataclass(frozen=True)

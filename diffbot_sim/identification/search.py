@@ -1,13 +1,15 @@
 """The search: from recordings and a declared model to a structure that explains them."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 from diffbot_sim.errors import DataError
 from diffbot_sim.identification.calibration import calibrate, simulation_error
 from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.doubt import doubt
 from diffbot_sim.identification.evidence import delta_bic
+from diffbot_sim.identification.filtering import filter_behind, unfiltered
 from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction, fit_simulation
 from diffbot_sim.identification.lateness import (
     lateness_of,
@@ -43,15 +45,13 @@ class Recordings:
         """Return the recordings with each run changed."""
         return Recordings(tuple(map(change, self.learned)), tuple(map(change, self.validate)))
 
-    def timings(self, given: 'Recordings') -> tuple[Timing, ...]:
-        """Return how these were taken otherwise than they had been given."""
-        pairs = zip(given.all, self.all, strict=True)
-        return tuple(filter(None, (timing(one, other) for one, other in pairs)))
-
 
 @dataclass(frozen=True)
 class Found:
-    """What was found in recordings, as they were taken to be timed."""
+    """What was found in recordings, as they were taken to be timed.
+
+    time_constant [s]: of the filter of their twists that was undone, 0 if none was.
+    """
 
     recordings: Recordings
     held_out: tuple[Stretch, ...]
@@ -59,28 +59,41 @@ class Found:
     selection: Selection
     unexplained: Structure | None
 
+    time_constant: float = 0.0
+
     @property
     def values(self) -> dict[str, float]:
         """The parameters of the structure."""
         return self.selection.final.space.values(self.selection.final.u)
 
+    def timings(self, given: Recordings) -> tuple[Timing, ...]:
+        """Return how recordings were taken otherwise than they had been given."""
+        if self.time_constant > 0.0:
+            return tuple(Timing(run.name, self.time_constant, 'filter') for run in given.all)
+        pairs = zip(given.all, self.recordings.all, strict=True)
+        return tuple(filter(None, (timing(one, other) for one, other in pairs)))
+
 
 def search(
     recordings: Recordings, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
 ) -> Found:
-    """Search the structures made of these effects, and ask whether the twists are late.
+    """Search the structures made of these effects, and ask whether it is the twists that are late.
 
     Raises DataError where the runs are too short or do not move.
     """
     found = _found(recordings.each(timely), declared, kinds, progress)
-    learned = found.recordings.learned
-    if not all(may_be_of_interval_before(run, found.values) for run in learned):
+    if all(may_be_of_interval_before(run, found.values) for run in found.recordings.learned):
+        progress('taking twists for means since the sample before')
+        older = _found(found.recordings.each(of_interval_before), declared, kinds, progress)
+        worth = delta_bic(found.selection.final, older.selection.final)
+        if worth > -INDISTINGUISHABLE and not lateness_of(older.values):
+            return older
+    time_constant = filter_behind(found.selection.final)
+    if time_constant == 0.0:
         return found
-    progress('taking twists for means since the sample before')
-    older = _found(found.recordings.each(of_interval_before), declared, kinds, progress)
-    worth = delta_bic(found.selection.final, older.selection.final)
-    as_well = worth > -INDISTINGUISHABLE and not lateness_of(older.values)
-    return older if as_well else found
+    progress('undoing a filter of the twists')
+    undone = found.recordings.each(partial(unfiltered, time_constant=time_constant))
+    return replace(_found(undone, declared, kinds, progress), time_constant=time_constant)
 
 
 def _found(

@@ -24,6 +24,15 @@ SPLITS = {
 NEAR = 1.5
 PUSHED = '; what lies between follows nothing that was recorded, as pushes of an uneven floor do'
 
+TIMINGS = {
+    'pose': 'the twists lag the poses by {}, as rolling means and filters do; what the poses tell '
+    'was used instead.',
+    'mean': 'the twists were taken as {} older than their stamps, as means over the past are; if '
+    'they are not, it is the robot that is so much late.',
+    'filter': 'the twists were taken as they were before a low-pass filter with a time constant '
+    'of {}: it explains them and their noise better than a robot that is late.',
+}
+
 
 def verdict(result: Identification) -> str:
     """Say the answer in one sentence."""
@@ -120,14 +129,7 @@ def disagreements(runs: Sequence[RunCheck]) -> list[str]:
 
 def timings(timings: Sequence[Timing]) -> list[str]:
     """Say of which runs the twists were taken as older than their stamps, and why."""
-    return [
-        f'{it.run}: the twists lag the poses by {_milliseconds(it)}, as rolling means and filters '
-        'do; what the poses tell was used instead.'
-        if it.of_pose
-        else f'{it.run}: the twists were taken as {_milliseconds(it)} older than their stamps, as '
-        'means over the past are; if they are not, it is the robot that is so much late.'
-        for it in timings
-    ]
+    return [f'{it.run}: {TIMINGS[it.taken].format(_milliseconds(it))}' for it in timings]
 
 
 def _milliseconds(it: Timing) -> str:

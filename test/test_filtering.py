@@ -1,0 +1,65 @@
+"""Odometry that went through a low-pass filter on its way into the bag."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
+from diffbot_sim.identification import identify
+from diffbot_sim.identification.filtering import unfiltered
+from diffbot_sim.physics import Model
+from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
+from diffbot_sim.records import Commands, Odometry, Run
+
+
+def filtered(run: Run, time_constant: float) -> Run:
+    """Return what is left of a run's odometry behind a filter; the pose goes missing."""
+    seen = run.odometry
+    twist = seen.twist.copy()
+    for k, passed in enumerate(-np.expm1(-np.diff(seen.time) / time_constant), start=1):
+        twist[k] = twist[k - 1] + passed * (seen.twist[k] - twist[k - 1])
+    return replace(run, odometry=Odometry(seen.time, twist, None))
+
+
+def driven(effects: tuple, surroundings: Surroundings, seed: int = 3) -> Run:
+    """Return a minute of random forces."""
+    return rehearse(
+        Model(effects=effects), random_forces(seed, 60.0, -9.0, 11.0), surroundings, seed
+    )
+
+
+@given(time_constant=st.floats(0.005, 1.0), seed=st.integers(0, 9))
+def test_what_was_filtered_comes_back(time_constant: float, seed: int) -> None:
+    generator = np.random.default_rng(seed)
+    time, twist = np.cumsum(generator.uniform(0.01, 0.1, 200)), generator.normal(size=(200, 2))
+    run = Run('drive', Commands(time, twist), Odometry(time, twist, None))
+    back = unfiltered(filtered(run, time_constant), time_constant)
+    assert back.odometry.twist == pytest.approx(twist, abs=1e-9)
+
+
+def test_filtered_twists_do_not_make_a_robot_late() -> None:
+    answer = identify([filtered(driven((), Surroundings()), 0.06)], Model())
+    assert answer.verdict == 'nothing_missing'
+    (timing,) = answer.timings
+    assert timing.taken == 'filter'
+    assert timing.lateness == pytest.approx(0.06, rel=0.03)
+
+
+def test_lag_of_the_actuators_is_told_from_that_of_a_filter() -> None:
+    run = driven((ActuatorLag(0.15),), Surroundings())
+    answer = identify([filtered(run, 0.05)], Model())
+    (effect,) = answer.effects
+    assert effect.name == 'actuator_lag'
+    assert effect.parameters['time_constant'].value == pytest.approx(0.15, rel=0.03)
+    assert answer.timings[0].lateness == pytest.approx(0.05, rel=0.05)
+
+
+@pytest.mark.parametrize('share', [1.0, 0.01])
+def test_late_robot_is_not_taken_for_a_filter(share: float) -> None:
+    run = driven((ActuatorLag(0.08),), Surroundings(0.004 * share, 0.008 * share))
+    answer = identify([replace(run, odometry=replace(run.odometry, pose=None))], Model())
+    assert [effect.name for effect in answer.effects] == ['actuator_lag']
+    assert not answer.timings
