@@ -105,7 +105,7 @@ def _loaded(module: str) -> Any:
     explains.start()
     try:
         return import_module(f'diffbot_sim.{module}')
-    except ImportError as error:
+    except ModuleNotFoundError as error:
         missing = (error.name or '').partition('.')[0]
         if missing == 'diffbot_sim':
             raise

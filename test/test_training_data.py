@@ -152,6 +152,18 @@ def test_a_missing_pyarrow_says_what_to_do(tmp_path, capsys, monkeypatch):
     assert not (tmp_path / 'set').exists()
 
 
+def test_a_pyarrow_that_does_not_load_says_why(tmp_path, capsys, monkeypatch):
+    package = tmp_path / 'packages' / 'pyarrow'
+    package.mkdir(parents=True)
+    (package / '__init__.py').write_text("raise ImportError('pyarrow requires NumPy 9')")
+    monkeypatch.syspath_prepend(package.parent)
+    for name in ('pyarrow', 'diffbot_sim.tables.parquet'):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    assert made(tmp_path, '--format', 'parquet') == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert 'pyarrow requires NumPy 9' in line
+
+
 @pytest.mark.parametrize(
     ('words', 'expected'),
     [

@@ -14,14 +14,16 @@ Writer = Callable[[Path, Mapping[str, Array]], None]
 
 
 def writer(name: str) -> Writer:
-    """Return what writes tables of a format; raises DiffbotError when its package is missing."""
+    """Return what writes tables of a format; raises DiffbotError if its package does not load."""
     try:
         module = import_module(f'{__package__}.{name}')
-    except ImportError as error:
+    except ModuleNotFoundError as error:
         missing = (error.name or '').partition('.')[0]
         raise DiffbotError(
             f"--format {name} needs '{missing}', which is not installed. "
             f"Install it with 'pip install {missing}', or use --format npz."
         ) from error
+    except ImportError as error:
+        raise DiffbotError(f'--format {name}: {error}. Mend that, or use --format npz.') from error
     write: Writer = module.write
     return write
