@@ -78,7 +78,7 @@ def response(model: Model, stretch: Stretch, gains: Array, force: float) -> Resp
     params, steps = model.pack(), np.zeros((count, 2, 4))
     body = params[:2]
     push = force * np.array([1.0, model.half_separation])
-    intervals = np.diff(stretch.time, prepend=stretch.time[0])
+    intervals = np.diff(stretch.time, prepend=stretch.time[0] - stretch.interval)[:, None]
     _difference(
         *compose(tuple(type(effect) for effect in model.effects)),
         params,
@@ -86,16 +86,15 @@ def response(model: Model, stretch: Stretch, gains: Array, force: float) -> Resp
         np.ascontiguousarray(commands.force),
         MAX_STEP,
         np.ascontiguousarray(stretch.time),
-        np.concatenate([push * stretch.interval / body, push]),
+        np.diag(np.concatenate([push * stretch.interval / body, push])),
         np.ascontiguousarray(before.disturbance),
         np.ascontiguousarray(stretch.twist - before.innovation),
         before.snapshots,
         *_place(before),
         steps,
     )
-    with np.errstate(divide='ignore'):
-        gain = np.where(intervals[:, None] > 0.0, gains[[1, 4]] * body / intervals[:, None], 0.0)
-    return Response(steps, 1.0 - gains[[0, 3]], gain, gains[[2, 5]] ** intervals[:, None])
+    gain = gains[[1, 4]] * body / intervals
+    return Response(steps, 1.0 - gains[[0, 3]], gain, gains[[2, 5]] ** intervals)
 
 
 def _place(prediction: Prediction) -> tuple[Array, Array, Modes, Array]:
@@ -108,7 +107,7 @@ def _place(prediction: Prediction) -> tuple[Array, Array, Modes, Array]:
 @entry(
     types.void(
         *FUNCTION_TYPES,
-        *(ARRAY, ARRAY, MATRIX, types.float64, ARRAY, ARRAY, MATRIX, MATRIX, MATRIX),
+        *(ARRAY, ARRAY, MATRIX, types.float64, ARRAY, MATRIX, MATRIX, MATRIX, MATRIX),
         *(ARRAY, ARRAY, INTEGERS, MATRIX, CUBE),
     )
 )
@@ -120,7 +119,7 @@ def _difference(  # type: ignore[no-untyped-def]
     force,
     max_step,
     times,
-    sizes,
+    changes,
     disturbance,
     predicted,
     snapshots,
@@ -137,17 +136,10 @@ def _difference(  # type: ignore[no-untyped-def]
         for column in range(4):
             for side in (1.0, -1.0):
                 restore(snapshots[k - 1], z, modes, states)
-                pushing, turning = disturbance[k - 1, 0], disturbance[k - 1, 1]
-                by = side * sizes[column]
-                if column == 0:
-                    correct(z, modes, b, by, 0.0)
-                elif column == 1:
-                    correct(z, modes, b, 0.0, by)
-                elif column == 2:
-                    pushing += by
-                else:
-                    turning += by
-                acting = (pushing, turning)
+                by = changes[column]
+                correct(z, modes, b, side * by[0], side * by[1])
+                push = disturbance[k - 1]
+                acting = (push[0] + side * by[2], push[1] + side * by[3])
                 advance_held(
                     laws,
                     settle,
@@ -162,8 +154,9 @@ def _difference(  # type: ignore[no-untyped-def]
                     times[k],
                     work,
                 )
-                v = (0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT]) - predicted[k, 0]) / by
-                omega = ((z[SPEED_RIGHT] - z[SPEED_LEFT]) / (2.0 * b) - predicted[k, 1]) / by
+                size = side * by[column]
+                v = (0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT]) - predicted[k, 0]) / size
+                omega = ((z[SPEED_RIGHT] - z[SPEED_LEFT]) / (2.0 * b) - predicted[k, 1]) / size
                 if side > 0.0 or abs(v) < abs(steps[k, 0, column]):
                     steps[k, 0, column] = v
                 if side > 0.0 or abs(omega) < abs(steps[k, 1, column]):
