@@ -63,14 +63,15 @@ def test_nothing_is_told_across_a_hole() -> None:
     assert not np.any((taken.time > 20.0) & (taken.time < 23.0))
 
 
-def test_of_a_noisy_pose_the_changes_over_the_lag_are_taken() -> None:
+def test_of_a_noisy_pose_changes_over_more_samples_are_taken() -> None:
     run = counted(driven(Model()), 10)
     seen = run.odometry
     noise = np.random.default_rng(1).normal(size=seen.pose.shape) * 0.003
     run = replace(run, odometry=replace(seen, pose=seen.pose + noise))
     taken = timely(run)
     assert timing(run, taken).taken == 'pose'
-    assert np.diff(taken.odometry.time) == pytest.approx(0.1)
+    apart = np.diff(taken.odometry.time)
+    assert np.all((apart > 0.03) & (apart < 0.11))  # longer than an interval, within the lag
 
 
 def test_tracker_whose_twists_are_means_over_a_noisy_pose_makes_no_robot_strange() -> None:

@@ -14,6 +14,7 @@ from scipy.optimize import minimize_scalar
 
 from diffbot_sim.identification.norms import white_noise
 from diffbot_sim.identification.result import Timing
+from diffbot_sim.identification.smoothing import smoothed_over
 from diffbot_sim.identification.stretches import averaged, median_interval
 from diffbot_sim.records import Array, Odometry, Run
 
@@ -39,16 +40,28 @@ def timely(run: Run) -> Run:
     """Return a run whose twist is of the time of its pose.
 
     A lag of up to an interval is left as it is: poses that are integrated from the twist lead it
-    or lag behind it by half of one. A longer mean hides what is fast: the twist is taken from the
-    pose's changes, of a noisy pose from those over the lag, which is half as long as the mean.
+    or lag behind it by half of one. A longer mean, or one to both sides, hides what is fast: the
+    twist is taken from the pose's changes, over as many samples as noise and the mean ask for.
     """
-    lag, interval = lag_behind_pose(run.odometry), median_interval(run.odometry.time)
-    if lag <= interval:
-        return run
-    moved = as_pose_moves(run)
-    twist = moved.odometry.twist
-    clear = np.all(white_noise(twist) < CLEAR * np.sqrt(np.mean(twist**2, axis=0)))
-    return moved if clear else as_pose_moves(averaged(run, round(lag / interval)))
+    longest = _length_of_mean(run.odometry)
+    taken = run
+    for group in range(1, longest + 1):
+        taken = as_pose_moves(averaged(run, group))
+        twist = taken.odometry.twist
+        if np.all(white_noise(twist) < CLEAR * np.sqrt(np.mean(twist**2, axis=0))):
+            break
+    return taken
+
+
+def _length_of_mean(odometry: Odometry) -> int:
+    """Return over about how many samples to a side the twist is a mean, 0 if not for long."""
+    lag, interval = lag_behind_pose(odometry), median_interval(odometry.time)
+    if lag > interval:
+        return round(lag / interval)
+    if odometry.pose is None or odometry.time[-1] - odometry.time[0] < SHORTEST:
+        return 0
+    turned = np.diff(odometry.pose[:, 2]) / np.diff(odometry.time)
+    return smoothed_over(turned, odometry.twist[1:, 1])
 
 
 def as_pose_moves(run: Run) -> Run:
@@ -71,7 +84,7 @@ def timing(given: Run, taken: Run) -> Timing | None:
     if taken is given:
         return None
     if taken.odometry.twist is not given.odometry.twist:
-        return Timing(given.name, lag_behind_pose(given.odometry), 'pose')
+        return Timing(given.name, max(0.0, lag_behind_pose(given.odometry)), 'pose')
     late = float(given.odometry.time[0] - taken.odometry.time[0])
     return Timing(given.name, late, 'mean')
 

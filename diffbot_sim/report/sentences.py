@@ -25,8 +25,7 @@ NEAR = 1.5
 PUSHED = '; what lies between follows nothing that was recorded, as pushes of an uneven floor do'
 
 TIMINGS = {
-    'pose': 'the twists lag the poses by {}, as rolling means and filters do; what the poses tell '
-    'was used instead.',
+    'pose': 'the twists are means over what the poses tell, {} late; that was used instead.',
     'mean': 'the twists were taken as {} older than their stamps, as means over the past are; if '
     'they are not, it is the robot that is so much late.',
     'filter': 'the twists were taken as they were before a low-pass filter with a time constant '
