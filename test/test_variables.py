@@ -30,14 +30,14 @@ def view() -> View:
 )
 def test_hats_add_up_to_the_weight(view: View, name: str) -> None:
     form = VARIABLES[name].form
-    (knots,) = form.grids([view])
-    total = form.columns(view, knots).sum(axis=1)
     weights = {
         'place_x': np.sign(view.wheel_speed),
         'hill_y': np.sin(view.stretch.heading)[:, None],
     }
     weight = weights.get(name, np.ones(1))
-    np.testing.assert_allclose(total, np.broadcast_to(weight, total.shape), atol=1e-12)
+    for knots in form.grids([view]):
+        total = form.columns(view, knots).sum(axis=1)
+        np.testing.assert_allclose(total, np.broadcast_to(weight, total.shape), atol=1e-12)
 
 
 @pytest.mark.parametrize('name', list(VARIABLES))
@@ -52,13 +52,20 @@ def test_every_form_draws_as_many_functions_as_it_shows(view: View, name: str) -
 @pytest.mark.parametrize('name', ['rolling', 'turning'])
 def test_friction_is_alike_both_ways(view: View, name: str) -> None:
     form = VARIABLES[name].form
-    (knots,) = form.grids([view])
+    *_, knots = form.grids([view])
     points, design = form.curve(knots)
     np.testing.assert_array_equal(points, -points[::-1])
     np.testing.assert_array_equal(design, -design[::-1])
     total = form.columns(view, knots).sum(axis=1)
     speed = {'rolling': view.wheel_speed, 'turning': view.omega[:, None]}[name]
     np.testing.assert_allclose(total, np.sign(speed), atol=1e-12)
+
+
+def test_line_and_curve_are_tried_from_end_to_end(view: View) -> None:
+    line, curve = VARIABLES['v'].form.grids([view])
+    assert (len(line), len(curve)) == (2, 6)
+    assert {line[0], curve[0]} == {view.v.min()}
+    assert {line[-1], curve[-1]} == {view.v.max()}
 
 
 def test_past_of_a_steady_command_is_that_command(view: View) -> None:

@@ -15,7 +15,10 @@ from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.views import View
 from diffbot_sim.records import Array
 
-KNOTS, FINE_KNOTS, HARMONICS = 6, 20, 2
+# Numbers of knots: a line, of few functions, shows what is weak; many show what is of any form.
+# Bent ones are for what lines do not tell apart: friction at both sides of zero is a line already.
+KNOTS, BENT_KNOTS, FINE_KNOTS = (2, 6), (3, 6), (20,)
+HARMONICS = 2
 # Edges of the spans in which the past of a command is averaged [s].
 PAST = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
 
@@ -29,14 +32,17 @@ class Piecewise:
 
     of: Of
     weights: Of = lambda view: np.ones(1)
-    count: int = KNOTS
+    counts: tuple[int, ...] = KNOTS
     looked_at: ClassVar[int] = 1
 
     def grids(self, views: Sequence[View]) -> list[Array]:
-        """Return distinct knots; none where the drive does not vary this."""
+        """Return distinct knots of each number; none where the drive does not vary this."""
         values = np.concatenate([self.of(view).ravel() for view in views])
-        knots = np.unique(np.quantile(values, np.linspace(0.0, 1.0, self.count)))
-        return [knots] if len(knots) >= 3 and knots[-1] - knots[0] > 1e-6 else []
+        if np.ptp(values) <= 1e-6:
+            return []
+        spaced = ((n, np.quantile(values, np.linspace(0.0, 1.0, n))) for n in self.counts)
+        grids = ((n, np.unique(knots)) for n, knots in spaced)
+        return [knots for n, knots in grids if len(knots) >= min(n, 3)]
 
     def columns(self, view: View, knots: Array) -> Array:
         """Evaluate hats along a stretch."""
@@ -52,12 +58,12 @@ class TwoSided:
     """Piecewise linear on both sides of zero, where it may jump; nothing at zero itself."""
 
     of: Of
-    count: int = KNOTS
+    counts: tuple[int, ...] = BENT_KNOTS
     looked_at: ClassVar[int] = 1
 
     def grids(self, views: Sequence[View]) -> list[Array]:
         """Return distinct knots of the size, the same for both sides."""
-        return Piecewise(lambda view: np.abs(self.of(view)), count=self.count).grids(views)
+        return Piecewise(lambda view: np.abs(self.of(view)), counts=self.counts).grids(views)
 
     def columns(self, view: View, knots: Array) -> Array:
         """Evaluate hats along a stretch, the negative side first."""

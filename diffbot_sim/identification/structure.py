@@ -61,7 +61,9 @@ def find_dependence(screen: Screen, held_out: Sequence[Stretch]) -> Dependence |
 def _is_beyond_doubt(
     screen: Screen, dependence: Dependence, held_out: Sequence[Stretch], tried: int
 ) -> bool:
-    if is_chance(dependence.p_value, tried) or dependence.p_block > EITHER_LEVEL:
+    if is_chance(dependence.p_value, tried) or worth_of(dependence, screen.fit) <= 0.0:
+        return False
+    if dependence.p_block > EITHER_LEVEL:
         return False
     chance = _held_out_chance(screen.fit, dependence, held_out)
     elsewhere = best_look(chance, _folds_chance(screen, dependence.basis))

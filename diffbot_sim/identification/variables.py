@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from diffbot_sim.identification.forms import (
+    BENT_KNOTS,
     FINE_KNOTS,
     Form,
     Odd,
@@ -107,11 +108,11 @@ VARIABLES = {
     'past_force': Variable("the past of each wheel's commanded force", Past(), WHEELS),
     'force_over_time': Variable(
         'time, in proportion to the commanded force',
-        Piecewise(_time_of_wheels, _share_of_force),
+        Piecewise(_time_of_wheels, _share_of_force, BENT_KNOTS),
         WHEELS,
     ),
     'friction_over_time': Variable(
-        'time, against the motion', Piecewise(_time_of_wheels, _rolling), WHEELS
+        'time, against the motion', Piecewise(_time_of_wheels, _rolling, BENT_KNOTS), WHEELS
     ),
     'hill_x': Variable(
         'where along x it is, like the pull of a hill',
