@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import product
 from math import inf
 
 import numpy as np
@@ -14,7 +15,7 @@ from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.selection import Selection
 from diffbot_sim.identification.stretches import Stretch
-from diffbot_sim.identification.structure import dependences, describe, find_dependence
+from diffbot_sim.identification.structure import dependences, describe, find_dependences
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
 
@@ -48,15 +49,15 @@ def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection,
         better = _outdone(selection.base, final, final.space.kinds)
         if better is not None:
             return _without(selection, _weakest(selection)[1], describe(better, final), held_out)
-    left = find_dependence(Screen(final), held_out)
-    if left is None:
+    found = find_dependences(Screen(final), held_out)
+    if not found:
         return _suspicion(selection, held_out)
-    for kind in final.space.kinds:
+    for kind, left in product(final.space.kinds, found):
         rest = selection.without[kind.name]
         whole = _free_form_of(rest, final, left)
         if whole is not None:
             return _without(selection, kind.name, describe(whole, rest), held_out)
-    return selection, describe(left, final)
+    return selection, describe(found[0], final)
 
 
 def _suspicion(

@@ -43,19 +43,27 @@ def dependences(screen: Screen) -> list[Dependence]:
     return sorted(tried, key=lambda dependence: worth_of(dependence, fit))[::-1]
 
 
-def find_dependence(screen: Screen, held_out: Sequence[Stretch]) -> Dependence | None:
-    """Return the strongest dependence that is beyond doubt, or None.
+def find_dependences(screen: Screen, held_out: Sequence[Stretch]) -> list[Dependence]:
+    """Return dependences that are beyond doubt and explain almost as much as the strongest.
 
-    One of fewer functions that explains almost as much says more.
+    The one of fewest functions, which says most, comes first.
     """
     tried = dependences(screen)
-    promising = [d for d in tried[:FOLLOWED] if not is_chance(d.p_value, len(tried))]
-    fitted = [realised(screen.fit, dependence.basis) for dependence in promising]
+    promising = [d for d in tried if not is_chance(d.p_value, len(tried))]
+    fitted = [realised(screen.fit, d.basis) for d in _best_of_each(promising)[:FOLLOWED]]
     found = [d for d in fitted if _is_beyond_doubt(screen, d, held_out, len(tried))]
     worths = [worth_of(dependence, screen.fit) for dependence in found]
     most = max(worths, default=0.0)
-    near = [d for d, w in zip(found, worths, strict=True) if w >= min(ALMOST * most, most)]
-    return min(near, key=lambda dependence: dependence.basis.size, default=None)
+    near = [d for d, worth in zip(found, worths, strict=True) if worth >= ALMOST * most]
+    return sorted(near, key=lambda dependence: dependence.basis.size)
+
+
+def _best_of_each(dependences: Sequence[Dependence]) -> list[Dependence]:
+    """Return the first dependence on each variable along each axis: of a line and a curve, say."""
+    first = dict[tuple[str, str], Dependence]()
+    for dependence in dependences:
+        first.setdefault((dependence.basis.variable, dependence.basis.axis), dependence)
+    return list(first.values())
 
 
 def _is_beyond_doubt(
