@@ -63,3 +63,20 @@ def test_late_robot_is_not_taken_for_a_filter(share: float) -> None:
     answer = identify([replace(run, odometry=replace(run.odometry, pose=None))], Model())
     assert [effect.name for effect in answer.effects] == ['actuator_lag']
     assert not answer.timings
+
+
+def coloured(run: Run, memory: float) -> Run:
+    """Return a run with noise [4 mm/s, 8 mrad/s] that forgets within so many seconds."""
+    seen, generator = run.odometry, np.random.default_rng(1)
+    noise = generator.normal(size=seen.twist.shape) * [0.004, 0.008]
+    for k, kept in enumerate(np.exp(-np.diff(seen.time) / memory), start=1):
+        noise[k] = kept * noise[k - 1] + np.sqrt(1.0 - kept**2) * noise[k]
+    return replace(run, odometry=Odometry(seen.time, seen.twist + noise, None))
+
+
+@pytest.mark.parametrize('memory', [0.05, 0.1])
+def test_late_robot_with_coloured_noise_is_not_taken_for_a_filter(memory: float) -> None:
+    run = driven((ActuatorLag(0.08),), Surroundings(1e-5, 1e-5))
+    answer = identify([coloured(run, memory)], Model())
+    assert [effect.name for effect in answer.effects] == ['actuator_lag']
+    assert not answer.timings

@@ -3,11 +3,20 @@
 import numpy as np
 
 from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.fitting import Fit, fit_prediction, fit_with_noise_held
+from diffbot_sim.identification.fitting import (
+    FIRST_GAINS,
+    UNIT,
+    Fit,
+    fit_prediction,
+    fit_with_noise_held,
+    whitened,
+)
 from diffbot_sim.identification.predictor import MAX_STEP
+from diffbot_sim.identification.robust import scale_of
 from diffbot_sim.identification.screening import Score, Screen
 from diffbot_sim.identification.start import restarted
 from diffbot_sim.physics.effects import Effect
+from diffbot_sim.records import Array
 
 # Evaluations after which a start, or an effect, is compared with others.
 SHORT = 4
@@ -40,8 +49,18 @@ def begun_anew(fit: Fit) -> Fit:
 
 
 def reduce(fit: Fit, name: str) -> Fit:
-    """Fit the structure that lacks one of the effects."""
+    """Fit the structure that lacks one of the effects.
+
+    From the noise model that errs less without it: one that trusts the model with the effect may
+    never catch up with what the rest cannot follow.
+    """
     kinds = tuple(kind for kind in fit.space.kinds if kind.name != name)
     space = Space(fit.space.declared, kinds)
     kept = np.delete(fit.u, fit.space.places(name))
-    return fit_prediction(space, fit.stretches, kept, fit.gains)
+
+    def scale(gains: Array) -> float:
+        errors = whitened(fit.stretches, space.model(kept), gains, UNIT)
+        return float(np.prod(scale_of(errors)))
+
+    gains = min((fit.gains, FIRST_GAINS), key=scale)
+    return fit_prediction(space, fit.stretches, kept, gains)

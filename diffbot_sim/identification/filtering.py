@@ -1,7 +1,8 @@
 """Odometry that went through a low-pass filter: found by its likelihood, and undone.
 
 A filter looks like a lag of the actuators, for motion is nearly linear in the forces. But it also
-passes the noise: errors that are white before a filter are not after it.
+passes the noise: errors that are white before a filter are not after it. Noise may be coloured by
+something else; then its colour and the lag have time constants of their own.
 """
 
 from dataclasses import replace
@@ -11,14 +12,15 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
+from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction, fit_simulation
 from diffbot_sim.identification.lateness import LATE
+from diffbot_sim.identification.memory import unforeseen
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.records import Array, Odometry, Run
 
-# By how much twice the log-likelihood must rise.
+# Twice a log-likelihood that is so much higher is no chance.
 CLEAR = 10.0
 # How far from an effect's lateness the time constant is looked for, and how closely: shares.
 WITHIN, CLOSELY, LOOKS = 4.0, 0.02, 12
@@ -34,13 +36,14 @@ def unfiltered(run: Run, time_constant: float) -> Run:
 def filter_behind(fit: Fit) -> float:
     """Return the time constant [s] of a filter that explains more than an effect that is late.
 
-    0 where no effect is late, or nothing speaks for a filter.
+    0 where no effect is late, nothing speaks for a filter, or noise of a colour of its own
+    explains more.
     """
     values = fit.space.values(fit.u)
     late = [(values[name], name.partition('.')[0]) for name in LATE if values.get(name, 0.0) > 0.0]
     looks = [(_cost_before(fit, effect, time), time, effect) for time, effect in late]
     cost, near, effect = min(looks, default=(inf, 0.0, ''))
-    if cost > _cost(fit) - CLEAR:
+    if cost > min(_cost(fit) - CLEAR, _cost_of_colour(fit) + CLEAR):
         return 0.0
     found = minimize_scalar(
         lambda at: _cost_before(fit, effect, exp(at)),
@@ -62,9 +65,14 @@ def _cost_before(fit: Fit, effect: str, time_constant: float) -> float:
     return _cost(before) + 4.0 * float(np.log(np.concatenate(shares)).sum())
 
 
+def _cost_of_colour(fit: Fit) -> float:
+    """Return -2 log-likelihood where all that past errors tell is the colour of the noise."""
+    return _cost(fit_simulation(fit.space, fit.stretches, fit.u))
+
+
 def _cost(fit: Fit) -> float:
-    """Return -2 log-likelihood, robust, less what is the same for all fits."""
-    return fit.deviance(fit.sigma) + 2.0 * len(fit.whitened) * float(np.log(fit.sigma).sum())
+    """Return -2 log-likelihood of what past errors do not tell, less what all fits share."""
+    return len(fit.whitened) * float(np.log(unforeseen(fit.whitened) * fit.sigma**2).sum())
 
 
 def _before(stretch: Stretch, time_constant: float) -> Stretch:

@@ -22,12 +22,12 @@ def fall_of_deviance(before: Array, after: Array) -> float:
     Weighed as they are, and beyond what their own past tells of them: the lesser fall counts.
     """
     as_they_are = float(huber(before).sum() - huber(after).sum())
-    beyond = len(before) * float(np.log(_unforeseen(before) / _unforeseen(after)).sum())
+    beyond = len(before) * float(np.log(unforeseen(before) / unforeseen(after)).sum())
     return max(min(as_they_are, beyond), 0.0)
 
 
-def _unforeseen(errors: Array) -> Array:
-    """Return the mean square of what past errors do not tell of each, shape (2,)."""
+def unforeseen(errors: Array) -> Array:
+    """Return the mean square of what past errors (n, 2) do not tell of each, shape (2,)."""
     errors = influence(errors)
     total = np.vstack([np.zeros(2), np.cumsum(errors, axis=0)])
     now = np.arange(len(errors))
