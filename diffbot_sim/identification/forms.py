@@ -17,7 +17,7 @@ from diffbot_sim.records import Array
 
 # Numbers of knots: a line, of few functions, shows what is weak; many show what is of any form.
 # Bent ones are for what lines do not tell apart: friction at both sides of zero is a line already.
-KNOTS, BENT_KNOTS, FINE_KNOTS = (2, 6), (3, 6), (20,)
+KNOTS, BENT_KNOTS, FINE_KNOTS = (2, 6), (3, 6), (2, 6, 20)
 HARMONICS = 2
 # Edges of the spans in which the past of a command is averaged [s].
 PAST = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
@@ -103,7 +103,7 @@ class Odd:
 
 @dataclass(frozen=True)
 class Periodic:
-    """Waves in an angle: of the heading, of a wheel's turn times an order, of time.
+    """Waves in an angle, in proportion to weights: of the heading, a wheel's turn, time.
 
     rates: by which the angle is multiplied; looked_at: how many rates they were chosen among.
     """
@@ -113,6 +113,7 @@ class Periodic:
     harmonics: int = HARMONICS
     looked_at: int = 1
     points: int = 25
+    weights: Of = lambda view: np.ones((1, 1))
 
     def grids(self, views: Sequence[View]) -> list[Array]:
         """Return the rates to be tried, each a grid of one."""
@@ -123,7 +124,7 @@ class Periodic:
         angle = rate[0] * self.of(view).reshape(len(view.stretch.time), -1)
         waves = self._waves(angle)
         apart = [waves * only for only in np.eye(angle.shape[1])[:, None]]
-        return np.concatenate(apart, axis=1)
+        return np.concatenate(apart, axis=1) * self.weights(view)[:, None]
 
     def curve(self, rate: Array) -> tuple[Array, Array]:
         """Return angles of one turn, and the functions of the body or the right wheel there."""

@@ -81,6 +81,11 @@ VARIABLES = {
         'the product of speed and yaw rate', Piecewise(lambda view: view.v * view.omega), BODY
     ),
     'heading': Variable('the heading', Periodic(lambda view: view.stretch.heading), BODY),
+    'nap': Variable(
+        'the heading, against the motion',
+        Periodic(lambda view: view.stretch.heading, weights=_rolling),
+        ('wheels',),
+    ),
     'time': Variable('time', Piecewise(_time), BODY),
     'rhythm': Variable(
         'time, with a steady rhythm',
