@@ -17,8 +17,8 @@ from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.identification.variables import VARIABLES
 from diffbot_sim.records import Array
 
-# Evaluations of a fit of a free form.
-EVALUATIONS = 10
+# Evaluations of a fit of a free form, and shares of what first order promises at which it begins.
+EVALUATIONS, SHARES = 10, (0.0, 0.25, 0.5, 1.0)
 # The most that an amount may be, and what it may well be, in largest commands: where parameters
 # of the model can do the same, they do.
 MOST, TYPICAL = 1.0, 0.1
@@ -71,12 +71,15 @@ def explained_by(screen: Screen, basis: Basis) -> Dependence:
     )
 
 
-def realised(fit: Fit, basis: Basis) -> Dependence:
+def realised(fit: Fit, like: Dependence) -> Dependence:
     """Return a free form fitted together with the free parameters and the noise model.
 
     First order promises too much where these would have to move far, as friction parameters do
-    beside a free form of the friction.
+    beside a free form of the friction, and where a wheel stands or starts otherwise than before.
+    like: the same to first order, or in another fit; the fit begins at the share of it that errs
+    least.
     """
+    basis = like.basis
     known, (low, high) = joint_prior(fit.space), joint_bounds(fit.space)
     none, units = np.zeros(basis.size), np.full(basis.size, 1.0 / UNIT_SHARE)
 
@@ -87,7 +90,9 @@ def realised(fit: Fit, basis: Basis) -> Dependence:
         np.concatenate([known.centre, none]), np.concatenate([known.deviation, TYPICAL * units])
     )
     bounds = np.concatenate([low, -MOST * units]), np.concatenate([high, MOST * units])
-    start, size = np.concatenate([fit.u, fit.gains, none]), len(known.centre)
+    size = len(known.centre)
+    starts = [np.concatenate([fit.u, fit.gains, share * like.amounts]) for share in SHARES]
+    start = min(starts, key=lambda at: float(huber(errors(at)).sum()))
     point, _ = minimise(errors, start, prior, bounds, EVALUATIONS, rounds=1)
     left = errors(point)
     slopes = derivatives(errors, point, left, bounds).reshape(-1, len(point))

@@ -116,7 +116,8 @@ def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence
 
 def _acting_in(fit: Fit, like: Dependence, sigma: Array) -> Dependence:
     """Return the free form of a dependence as it really acts in a fit, at a given scale."""
-    return realised(replace(fit, sigma=sigma), again(like.basis, fit, fit.stretches))
+    basis = again(like.basis, fit, fit.stretches)
+    return realised(replace(fit, sigma=sigma), replace(like, basis=basis))
 
 
 def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:

@@ -50,7 +50,7 @@ def find_dependences(screen: Screen, held_out: Sequence[Stretch]) -> list[Depend
     """
     tried = dependences(screen)
     promising = [d for d in tried if not is_chance(d.p_value, len(tried))]
-    fitted = [realised(screen.fit, d.basis) for d in _best_of_each(promising)[:FOLLOWED]]
+    fitted = [realised(screen.fit, d) for d in _best_of_each(promising)[:FOLLOWED]]
     found = [d for d in fitted if _is_beyond_doubt(screen, d, held_out, len(tried))]
     worths = [worth_of(dependence, screen.fit) for dependence in found]
     most = max(worths, default=0.0)
