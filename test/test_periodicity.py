@@ -29,3 +29,19 @@ def test_strongest_order_is_that_of_the_wave_in_the_errors(order) -> None:
     angles, errors = turned(1)
     found = _strongest(ORDERS, angles, errors + 0.3 * np.sin(order * angles + 1.0), 0.004)
     assert found[0] == pytest.approx(order, abs=0.002)
+
+
+def test_weaker_wave_is_found_beside_a_stronger_one() -> None:
+    angles, errors = turned(2)
+    waves = np.sin(2.0 * angles) + 0.3 * np.cos(3.3 * angles)
+    found = _strongest(ORDERS, angles, errors + waves, 0.004)
+    assert found[:2] == pytest.approx([2.0, 3.3], abs=0.002)
+
+
+@pytest.mark.parametrize('seed', range(5))
+def test_what_depends_on_the_angle_anyhow_has_no_order(seed) -> None:
+    angles, errors = turned(seed)
+    floor = np.cumsum(np.random.default_rng(seed).normal(size=2000))
+    floor -= np.convolve(floor, np.ones(40) / 40, 'same')
+    errors += 0.3 * np.interp(angles, np.linspace(angles.min(), angles.max(), 2000), floor)
+    assert _strongest(ORDERS, angles, errors, 0.004) == ()

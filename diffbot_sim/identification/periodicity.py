@@ -1,5 +1,7 @@
 """At which periods of time or wheel angle a residual repeats: cheap, before any simulation."""
 
+from math import exp
+
 import numpy as np
 
 from diffbot_sim.identification.fitting import Fit
@@ -14,8 +16,12 @@ HIGHEST_RATE, FEWEST_CYCLES = 5.0, 4.0
 FINENESS, SAMPLES_PER_CYCLE = 3.0, 3.0
 # Points to which errors are moved, in the shortest wave: it loses a hundredth of its power.
 POINTS_PER_CYCLE = 32.0
-# Beside a peak, this many line widths are its side lobes.
-SIDE_LOBES = 5.0
+# Beside a peak, this many line widths are its side lobes; so many times as far reaches the floor
+# out of which a line must stand, so seldom by chance, and of so many points at least it is known.
+SIDE_LOBES, FLOOR, FEWEST_POINTS = 5.0, 10.0, 20
+LINE_LEVEL = 1e-3
+# Median of the squared amplitude of two columns of noise, over the mean of one.
+MEDIAN = 1.678
 
 
 def wheel_orders(fit: Fit) -> tuple[float, ...]:
@@ -54,7 +60,11 @@ def _by_wheel(fit: Fit) -> tuple[Array, Array]:
 
 
 def _strongest(orders: Array, angles: Array, errors: Array, spacing: float) -> tuple[float, ...]:
-    """Return the orders whose waves are strongest in the errors; spacing: of a fine spectrum."""
+    """Return the orders whose waves are strongest in the errors, if they stand out of others.
+
+    spacing: of a fine spectrum. Errors that depend on the angle or on time anyhow, not in waves,
+    have as much power all around.
+    """
     if len(orders) < 3:
         return ()
     return _peaks(orders, _power(orders, angles, errors), SIDE_LOBES * FINENESS * spacing)
@@ -85,7 +95,17 @@ def _peaks(orders: Array, power: Array, apart: float) -> tuple[float, ...]:
         order = float(orders[place] + (orders[1] - orders[0]) * _summit(power[place - 1 :][:3]))
         if all(abs(order - other) > apart for other in kept):
             kept.append(order)
-    return tuple(kept[:KEPT])
+    return tuple(order for order in kept[:KEPT] if _stands_out(order, orders, power, apart))
+
+
+def _stands_out(order: float, orders: Array, power: Array, apart: float) -> bool:
+    """Say whether noise with the floor around an order would hardly be as strong anywhere."""
+    distance = np.abs(orders - order)
+    around = power[(distance > apart) & (distance < FLOOR * apart)]
+    if len(around) < FEWEST_POINTS:
+        return True
+    height = float(power[distance <= orders[1] - orders[0]].max() * MEDIAN / np.median(around))
+    return (1.0 + height) * exp(-height) * len(orders) / FINENESS < LINE_LEVEL
 
 
 def _summit(power: Array) -> float:
