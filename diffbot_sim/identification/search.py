@@ -50,15 +50,16 @@ class Recordings:
 class Found:
     """What was found in recordings, as they were taken to be timed.
 
-    time_constant [s]: of the filter of their twists that was undone, 0 if none was.
+    undoubted: the fit before names were doubted; time_constant [s]: of the filter of their twists
+    that was undone, 0 if none was.
     """
 
     recordings: Recordings
     held_out: tuple[Stretch, ...]
     recalibrated: Fit
+    undoubted: Fit
     selection: Selection
     unexplained: Structure | None
-
     time_constant: float = 0.0
 
     @property
@@ -88,7 +89,8 @@ def search(
         worth = delta_bic(found.selection.final, older.selection.final)
         if worth > -INDISTINGUISHABLE and not lateness_of(older.values):
             return older
-    time_constant = filter_behind(found.selection.final)
+    # What is left of a filter may be held against the names that stand for it.
+    time_constant = filter_behind(found.undoubted)
     if time_constant == 0.0:
         return found
     progress('undoing a filter of the twists')
@@ -116,7 +118,8 @@ def _found(
     recalibrated = min(recalibrated, again, key=simulation_error)
     selection = select(base, kinds, held_out, progress)
     progress('looking for structure that is left')
-    return Found(recordings, held_out, recalibrated, *doubt(selection, held_out))
+    doubted = doubt(selection, held_out)
+    return Found(recordings, held_out, recalibrated, selection.final, *doubted)
 
 
 def _check(stretches: Sequence[Stretch]) -> None:
