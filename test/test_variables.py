@@ -14,6 +14,7 @@ from diffbot_sim.identification.stretches import whole
 from diffbot_sim.identification.variables import VARIABLES
 from diffbot_sim.identification.views import View
 from diffbot_sim.physics import Model
+from diffbot_sim.report.dependence import structure_label
 
 
 @pytest.fixture(scope='module')
@@ -47,6 +48,11 @@ def test_every_form_draws_as_many_functions_as_it_shows(view: View, name: str) -
         points, design = form.curve(grid)
         assert len(points) == len(design)
         assert design.shape[1] <= form.columns(view, grid).shape[1]
+
+
+@pytest.mark.parametrize('name', list(VARIABLES))
+def test_every_variable_has_a_label_with_its_unit(name: str) -> None:
+    assert '[' in structure_label(name)
 
 
 @pytest.mark.parametrize('name', ['rolling', 'turning'])

@@ -81,7 +81,7 @@ VARIABLES = {
         'the product of speed and yaw rate', Piecewise(lambda view: view.v * view.omega), BODY
     ),
     'heading': Variable('the heading', Periodic(lambda view: view.stretch.heading), BODY),
-    'nap': Variable(
+    'friction_over_heading': Variable(
         'the heading, against the motion',
         Periodic(lambda view: view.stretch.heading, weights=_rolling),
         ('wheels',),

@@ -54,7 +54,8 @@ VARIABLES = {
     'traction': Variable('traction force [N]', lambda run: run.with_effects.traction.sum(axis=1)),
     'time': Variable('time [s]', lambda run: run.time),
 }
-ANGLES = ('heading', 'wheel_angle', 'rhythm')  # radians everywhere, degrees on paper
+# Radians everywhere, degrees on paper.
+ANGLES = ('heading', 'friction_over_heading', 'wheel_angle', 'rhythm')
 # Of variables in which structure without a name is looked for; the others are those above.
 STRUCTURE_LABELS = {
     'turning': 'turn rate ω [rad/s]',
@@ -67,6 +68,7 @@ STRUCTURE_LABELS = {
     'past_force': 'age of the command [s]',
     'force_over_time': 'time [s]',
     'friction_over_time': 'time [s]',
+    'friction_over_heading': 'heading [°]',
     'hill_x': 'x [m]',
     'hill_y': 'y [m]',
     'place_x': 'x [m]',
