@@ -43,7 +43,7 @@ def filter_behind(fit: Fit) -> float:
     late = [(values[name], name.partition('.')[0]) for name in LATE if values.get(name, 0.0) > 0.0]
     looks = [(_cost_before(fit, effect, time), time, effect) for time, effect in late]
     cost, near, effect = min(looks, default=(inf, 0.0, ''))
-    if cost > min(_cost(fit) - CLEAR, _cost_of_colour(fit) + CLEAR):
+    if cost > _cost(fit) - CLEAR:
         return 0.0
     found = minimize_scalar(
         lambda at: _cost_before(fit, effect, exp(at)),
@@ -51,7 +51,7 @@ def filter_behind(fit: Fit) -> float:
         method='bounded',
         options={'xatol': CLOSELY, 'maxiter': LOOKS},
     )
-    return exp(found.x)
+    return exp(found.x) if found.fun < _cost_of_colour(fit) + CLEAR else 0.0
 
 
 def _cost_before(fit: Fit, effect: str, time_constant: float) -> float:
