@@ -21,6 +21,11 @@ def is_chance(p_value: float, tried: int) -> bool:
     return p_value * tried > LIKELIHOOD_LEVEL
 
 
+def may_be_chance(p_value: float, delta_bic: float, tried: int) -> bool:
+    """Say whether the likelihood allows something to be chance, with so many tried."""
+    return is_chance(p_value, tried) or delta_bic <= 0.0
+
+
 def best_look(*chances: float) -> float:
     """Return the chance of the least of these chances: who looks often sees more."""
     return min(1.0, len(chances) * min(chances, default=1.0))

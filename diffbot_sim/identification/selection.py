@@ -7,9 +7,10 @@ from operator import itemgetter
 from diffbot_sim.identification.candidates import approach, begun_anew, complete, reduce
 from diffbot_sim.identification.evidence import Evidence, compare, delta_bic
 from diffbot_sim.identification.fitting import Fit
+from diffbot_sim.identification.guards import may_be_chance
 from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.stretches import Stretch
-from diffbot_sim.identification.trials import OUTDONE, Progress, Trial, may_be_chance, try_all
+from diffbot_sim.identification.trials import OUTDONE, Progress, Trial, try_all
 from diffbot_sim.physics.effects import Effect
 
 # Structures closer than this in BIC cannot be told apart.
@@ -96,7 +97,11 @@ def _prune(
             ends = [reduce(fit, kind.name), *(f for f in path if set(f.space.kinds) == rest)]
             smaller[kind.name] = min(ends, key=lambda end: end.deviance(fit.sigma))
             support[kind.name] = compare(smaller[kind.name], fit, held_out)
-        needless = [name for name, evidence in support.items() if may_be_chance(evidence, tried)]
+        needless = [
+            name
+            for name, evidence in support.items()
+            if may_be_chance(evidence.p_value, evidence.delta_bic, tried)
+        ]
         if not needless:
             return fit, smaller, support
         worst = min(needless, key=lambda name: support[name].delta_bic)

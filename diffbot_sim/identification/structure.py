@@ -15,7 +15,13 @@ from diffbot_sim.identification.dependence import (
 )
 from diffbot_sim.identification.fitting import Fit, whitened
 from diffbot_sim.identification.gains import chance_of, folds_chance
-from diffbot_sim.identification.guards import EITHER_LEVEL, best_look, is_chance, lasting
+from diffbot_sim.identification.guards import (
+    EITHER_LEVEL,
+    best_look,
+    is_chance,
+    lasting,
+    may_be_chance,
+)
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.robust import huber
@@ -69,7 +75,7 @@ def _best_of_each(dependences: Sequence[Dependence]) -> list[Dependence]:
 def _is_beyond_doubt(
     screen: Screen, dependence: Dependence, held_out: Sequence[Stretch], tried: int
 ) -> bool:
-    if is_chance(dependence.p_value, tried) or worth_of(dependence, screen.fit) <= 0.0:
+    if may_be_chance(dependence.p_value, worth_of(dependence, screen.fit), tried):
         return False
     if dependence.p_block > EITHER_LEVEL:
         return False

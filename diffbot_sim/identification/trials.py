@@ -10,7 +10,7 @@ from scipy import stats
 from diffbot_sim.identification.candidates import approach, complete
 from diffbot_sim.identification.evidence import Evidence, compare
 from diffbot_sim.identification.fitting import Fit
-from diffbot_sim.identification.guards import ELSEWHERE_LEVEL, is_chance, lasting
+from diffbot_sim.identification.guards import ELSEWHERE_LEVEL, lasting, may_be_chance
 from diffbot_sim.identification.screening import PROMISING, Score, Screen
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.physics.effects import Effect
@@ -123,14 +123,9 @@ def _first_order(screen: Screen, kind: type[Effect], fall: float, p_value: float
     return Evidence(fall - cost, p_value, nan, nan, nan, nan)
 
 
-def may_be_chance(evidence: Evidence, tried: int) -> bool:
-    """Say whether the likelihood allows an effect to be chance, with so many tried."""
-    return is_chance(evidence.p_value, tried) or evidence.delta_bic <= 0.0
-
-
 def judge(evidence: Evidence, tried: int) -> str:
     """Say whether an effect, one of so many tried, may enter, or why not."""
-    if may_be_chance(evidence, tried):
+    if may_be_chance(evidence.p_value, evidence.delta_bic, tried):
         return CHANCE
     if evidence.is_refuted:
         return UNCONFIRMED
