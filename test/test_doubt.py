@@ -1,5 +1,6 @@
 """Doubt about an answer, names and silence alike."""
 
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -13,44 +14,52 @@ from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
 from diffbot_sim.identification.guards import lasting
 from diffbot_sim.identification.selection import Selection
 from diffbot_sim.identification.stretches import Stretch, split
-from diffbot_sim.identification.trials import CHANCE, OUTDONE, SUPPORTED, Trial
+from diffbot_sim.identification.trials import CHANCE, OUTDONE, SUPPORTED, UNCONFIRMED, Trial
 from diffbot_sim.physics import Model
-from diffbot_sim.physics.effects.payload_change import PayloadChange
+from diffbot_sim.physics.effects import Effect
+from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
 
 
 @cache
-def clean() -> tuple[Fit, tuple[Stretch, ...]]:
-    """Return a fit to a robot that lacks nothing, and held-out data."""
-    run = rehearse(Model(), random_forces(1, 40.0, -9.0, 11.0), Surroundings(), 1)
-    fitted, held_out = split([run])
-    space = Space(Model(), ())
-    return fit_prediction(space, fitted, space.prior(), FIRST_GAINS), held_out
+def fitted(*effects: Effect) -> tuple[Fit, tuple[Stretch, ...]]:
+    """Return a fit that has the effects of its robot, and held-out data."""
+    run = rehearse(Model(effects=effects), random_forces(1, 40.0, -9.0, 11.0), Surroundings(), 1)
+    learned, held_out = split([run])
+    space = Space(Model(), tuple(type(effect) for effect in effects))
+    return fit_prediction(space, learned, space.prior(), FIRST_GAINS), held_out
 
 
-def answer_after(outcome: str, delta_bic: float, elsewhere: float = 0.2):
-    """Return what doubt says when this is how an effect fared that did not enter."""
-    fit, held_out = clean()
+def answer_after(outcome: str, delta_bic: float, elsewhere: float = 0.2, tried: Fit | None = None):
+    """Return what doubt says of silence when this is how an effect fared that did not enter."""
+    fit, held_out = fitted()
     evidence = Evidence(delta_bic, 0.0, 0.05, 0.1, elsewhere, elsewhere)
-    trial = Trial(PayloadChange, fit, evidence, outcome)
+    trial = Trial(QuadraticDrag, tried or fit, evidence, outcome)
     return doubt(Selection(fit, fit, (trial,), {}, {}, {}), held_out)
 
 
 def test_noise_has_no_rhythm_that_is_worth_a_try() -> None:
-    fit, _ = clean()
+    fit, _ = fitted()
     variables = {basis.variable for basis in bases(fit, fit.stretches)}
     assert 'time' in variables
     assert not variables & {'rhythm', 'wheel_angle'}
 
 
 def test_refused_effect_that_explains_too_much_for_chance_is_no_silence() -> None:
-    selection, left = answer_after('does not predict held-out data better', 90.0)
+    explaining, _ = fitted(QuadraticDrag(coefficient=6.0))
+    selection, left = answer_after(UNCONFIRMED, 90.0, tried=explaining)
     assert selection.final.space.kinds == ()
     assert left is not None
-    assert left.description.startswith('something that payload_change explains in part')
+    assert left.description.startswith('something that quadratic_drag explains in part')
+
+
+def test_what_the_model_explains_as_well_alone_raises_no_suspicion() -> None:
+    space = Space(Model(), (QuadraticDrag,))
+    needless = replace(fitted()[0], space=space, u=space.prior())
+    assert answer_after(UNCONFIRMED, 90.0, tried=needless)[1] is None
 
 
 def test_what_all_other_data_speak_against_raises_no_suspicion() -> None:
-    assert answer_after('does not predict held-out data better', 90.0, elsewhere=0.8)[1] is None
+    assert answer_after(UNCONFIRMED, 90.0, elsewhere=0.8)[1] is None
 
 
 @pytest.mark.parametrize(

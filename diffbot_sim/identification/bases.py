@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 
@@ -43,6 +44,18 @@ class Basis:
     def size(self) -> int:
         """Number of functions."""
         return int(self.values[0].shape[1])
+
+    @property
+    def words(self) -> str:
+        """What the functions depend on."""
+        rate = float(self.grid[0])
+        return VARIABLES[self.variable].words.format(rate=rate, period=1.0 / rate if rate else inf)
+
+    def parted(self, rows: Array, stretches: Sequence[Stretch]) -> Array:
+        """Put a row for v and ω of every used sample in the order in which parts must agree."""
+        order = VARIABLES[self.variable].order(stretches)
+        pairs = rows.reshape(len(order), 2, *rows.shape[1:])
+        return np.asarray(pairs[order].reshape(rows.shape))
 
     def push(self, stretch: int, index: int) -> Array:
         """Return one function as a push on the body, shape (k, 2)."""

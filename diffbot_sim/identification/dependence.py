@@ -1,14 +1,20 @@
 """How much a free-form force that depends on one variable explains of what a fit leaves."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.bases import UNIT_SHARE, Basis
 from diffbot_sim.identification.evidence import sandwich, wald_p
-from diffbot_sim.identification.fitting import Fit, joint_bounds, joint_prior, whitened
+from diffbot_sim.identification.fitting import (
+    Fit,
+    fit_prediction,
+    joint_bounds,
+    joint_prior,
+    whitened,
+)
 from diffbot_sim.identification.memory import fall_of_deviance
 from diffbot_sim.identification.minimisation import Prior, derivatives, minimise
 from diffbot_sim.identification.robust import huber
@@ -59,7 +65,8 @@ def explained_by(screen: Screen, basis: Basis) -> Dependence:
     slopes = sensitivity(screen, basis)
     fall, amounts, flat = screen.explained(slopes)
     rest = screen.residual + flat @ amounts
-    spread = sandwich(flat, rest, np.ones(flat.shape[1]))
+    columns, errors = (basis.parted(rows, screen.fit.stretches) for rows in (flat, rest))
+    spread = sandwich(columns, errors, np.ones(flat.shape[1]))
     return Dependence(
         basis,
         fall,
@@ -95,18 +102,36 @@ def realised(fit: Fit, like: Dependence) -> Dependence:
     start = min(starts, key=lambda at: float(huber(errors(at)).sum()))
     point, _ = minimise(errors, start, prior, bounds, EVALUATIONS, rounds=1)
     left = errors(point)
-    slopes = derivatives(errors, point, left, bounds).reshape(-1, len(point))
+    jacobian = derivatives(errors, point, left, bounds).reshape(-1, len(point))
+    slopes, rest = (basis.parted(rows, fit.stretches) for rows in (jacobian, left.ravel()))
     information = prior.deviation**-2.0
-    joint = sandwich(slopes, left.ravel(), information)[size:, size:]
+    joint = sandwich(slopes, rest, information)[size:, size:]
     return Dependence(
         basis,
         fall=max(float(huber(fit.whitened).sum() - huber(left).sum()), 0.0),
         beyond=fall_of_deviance(fit.whitened, left),
         amounts=point[size:],
         adaptation=(point - start)[:size],
-        spread=sandwich(slopes[:, size:], left.ravel(), information[size:]),
+        spread=sandwich(slopes[:, size:], rest, information[size:]),
         p_block=_of_best(basis, wald_p(point[size:], joint)),
     )
+
+
+def against_the_model(fit: Fit, dependence: Dependence) -> Dependence:
+    """Return a realised dependence, held against the model alone, fitted from where it led.
+
+    Errors jump where a wheel just breaks away, and fits end in any of many hollows: a better one
+    is no merit of the form that found it.
+    """
+    at = np.concatenate([fit.u, fit.gains]) + dependence.adaptation
+    alone = fit_prediction(fit.space, fit.stretches, *np.split(at, [len(fit.u)]))
+    gained = fit.deviance(fit.sigma) - alone.deviance(fit.sigma)
+    if gained <= 0.0:
+        return dependence
+    left = acting(fit, dependence.basis, np.append(at, dependence.amounts), fit.stretches)
+    before = alone.whitened * (alone.sigma / fit.sigma)
+    fall = max(dependence.fall - gained, 0.0)
+    return replace(dependence, fall=fall, beyond=fall_of_deviance(before, left))
 
 
 def acting(fit: Fit, basis: Basis, at: Array, stretches: Sequence[Stretch]) -> Array:

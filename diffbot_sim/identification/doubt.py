@@ -8,7 +8,9 @@ from math import inf
 import numpy as np
 
 from diffbot_sim.identification.bases import again
+from diffbot_sim.identification.candidates import reduce
 from diffbot_sim.identification.dependence import Dependence, realised, worth_of
+from diffbot_sim.identification.evidence import delta_bic
 from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.guards import BLOCK_LEVEL
 from diffbot_sim.identification.result import Structure
@@ -16,6 +18,7 @@ from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.selection import Selection
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.identification.structure import dependences, describe, find_dependences
+from diffbot_sim.identification.trials import Trial
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
 
@@ -64,18 +67,30 @@ def _suspicion(
     selection: Selection, held_out: Sequence[Stretch]
 ) -> tuple[Selection, Structure | None]:
     """Doubt silence, and the weakest name, beside a refused effect that is beyond chance."""
-    refused = (t for t in selection.trials if t.refused and not t.evidence.is_contradicted)
-    most = max(refused, key=lambda t: t.evidence.delta_bic, default=None)
-    if most is None or most.evidence.delta_bic < SUSPICIOUS:
-        return selection, None
     final = selection.final
+    refused = [t for t in selection.trials if t.refused and not t.evidence.is_contradicted]
+    most = max(refused, key=lambda t: t.evidence.delta_bic, default=None)
+    suspected = 0.0 if most is None else _worth_without_luck(most)
+    if most is None or suspected < SUSPICIOUS:
+        return selection, None
     nearest = describe(dependences(Screen(final))[0], final)
     words = f'something that {most.kind.name} explains in part, though not all along the runs, or'
     left = replace(nearest, description=f'{words} {nearest.description}')
     worth, weakest = _weakest(selection)
-    if WORTHIER * worth > most.evidence.delta_bic:
+    if WORTHIER * worth > suspected:
         return selection, left
     return _without(selection, weakest, left, held_out)
+
+
+def _worth_without_luck(trial: Trial) -> float:
+    """Return by how much an effect lowers the BIC, held against its fit without the effect, too.
+
+    That may be better than the one that it was tried on: fits end in any of many hollows.
+    """
+    if trial.fit is None or trial.evidence.delta_bic < SUSPICIOUS:
+        return trial.evidence.delta_bic
+    alone = reduce(trial.fit, trial.kind.name)
+    return min(trial.evidence.delta_bic, delta_bic(alone, trial.fit))
 
 
 def _weakest(selection: Selection) -> tuple[float, str]:

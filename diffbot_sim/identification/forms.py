@@ -18,7 +18,6 @@ from diffbot_sim.records import Array
 # Numbers of knots: a line, of few functions, shows what is weak; many show what is of any form.
 # Bent ones are for what lines do not tell apart: friction at both sides of zero is a line already.
 KNOTS, BENT_KNOTS, FINE_KNOTS = (2, 6), (3, 6), (2, 6, 20)
-HARMONICS = 2
 # Edges of the spans in which the past of a command is averaged [s].
 PAST = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
 
@@ -28,7 +27,10 @@ Of = Callable[[View], Array]
 
 @dataclass(frozen=True)
 class Piecewise:
-    """Piecewise linear in a variable, in proportion to weights; knots lie at its quantiles."""
+    """Piecewise linear in a variable, in proportion to weights.
+
+    Knots lie at quantiles of the variable, where it has a weight.
+    """
 
     of: Of
     weights: Of = lambda view: np.ones(1)
@@ -37,8 +39,8 @@ class Piecewise:
 
     def grids(self, views: Sequence[View]) -> list[Array]:
         """Return distinct knots of each number; none where the drive does not vary this."""
-        values = np.concatenate([self.of(view).ravel() for view in views])
-        if np.ptp(values) <= 1e-6:
+        values = np.concatenate([self._weighted(view) for view in views])
+        if len(values) == 0 or np.ptp(values) <= 1e-6:
             return []
         spaced = ((n, np.quantile(values, np.linspace(0.0, 1.0, n))) for n in self.counts)
         grids = ((n, np.unique(knots)) for n, knots in spaced)
@@ -47,6 +49,10 @@ class Piecewise:
     def columns(self, view: View, knots: Array) -> Array:
         """Evaluate hats along a stretch."""
         return _hats(self.of(view), knots, self.weights(view))
+
+    def _weighted(self, view: View) -> Array:
+        values = self.of(view)
+        return np.asarray(values[np.broadcast_to(self.weights(view), values.shape) != 0.0])
 
     def curve(self, knots: Array) -> tuple[Array, Array]:
         """Return points of the variable and all functions there."""
@@ -105,35 +111,31 @@ class Odd:
 class Periodic:
     """Waves in an angle, in proportion to weights: of the heading, a wheel's turn, time.
 
-    rates: by which the angle is multiplied; looked_at: how many rates they were chosen among.
+    waves: sets of rates by which the angle is multiplied; looked_at: among how many sets they were
+    chosen.
     """
 
     of: Of
-    rates: Callable[[Fit], Sequence[float]] = lambda fit: (1.0,)
-    harmonics: int = HARMONICS
+    waves: Callable[[Fit], Sequence[tuple[float, ...]]] = lambda fit: [(1.0, 2.0)]
     looked_at: int = 1
     points: int = 25
     weights: Of = lambda view: np.ones((1, 1))
 
     def grids(self, views: Sequence[View]) -> list[Array]:
-        """Return the rates to be tried, each a grid of one."""
-        return [np.array([rate]) for rate in self.rates(views[0].fit)]
+        """Return the sets of rates to be tried."""
+        return [np.array(rates) for rates in self.waves(views[0].fit)]
 
-    def columns(self, view: View, rate: Array) -> Array:
+    def columns(self, view: View, rates: Array) -> Array:
         """Evaluate waves along a stretch, those of each wheel on their own."""
-        angle = rate[0] * self.of(view).reshape(len(view.stretch.time), -1)
-        waves = self._waves(angle)
+        angle = self.of(view).reshape(len(view.stretch.time), -1)
+        waves = _waves(angle, rates)
         apart = [waves * only for only in np.eye(angle.shape[1])[:, None]]
         return np.concatenate(apart, axis=1) * self.weights(view)[:, None]
 
-    def curve(self, rate: Array) -> tuple[Array, Array]:
+    def curve(self, rates: Array) -> tuple[Array, Array]:
         """Return angles of one turn, and the functions of the body or the right wheel there."""
         angle = np.linspace(-np.pi, np.pi, self.points)
-        return angle, self._waves(angle[:, None])[..., 0]
-
-    def _waves(self, angle: Array) -> Array:
-        turns = [h * angle for h in range(1, self.harmonics + 1)]
-        return np.stack([wave(turn) for turn in turns for wave in (np.cos, np.sin)], axis=1)
+        return angle, _waves(angle[:, None], rates / rates[0])[..., 0]
 
 
 @dataclass(frozen=True)
@@ -165,3 +167,9 @@ def _hats(values: Array, knots: Array, weights: Array) -> Array:
     """Return weighted hat functions, shape (k, q, 1 or 2)."""
     hats = [weights * np.interp(values, knots, hat) for hat in np.eye(len(knots))]
     return np.stack([hat.reshape(len(hat), -1) for hat in hats], axis=1)
+
+
+def _waves(angle: Array, rates: Array) -> Array:
+    """Return the cosine and the sine of each multiple of angles (k, 1 or 2)."""
+    turns = [rate * angle for rate in rates]
+    return np.stack([wave(turn) for turn in turns for wave in (np.cos, np.sin)], axis=1)

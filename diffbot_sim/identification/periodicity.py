@@ -1,8 +1,9 @@
 """At which periods of time or wheel angle a residual repeats: cheap, before any simulation."""
 
-from math import exp
+from math import ceil
 
 import numpy as np
+from scipy.special import gammainccinv
 
 from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.views import views
@@ -12,13 +13,18 @@ from diffbot_sim.records import Array
 LOWEST, HIGHEST, KEPT = 0.2, 60.0, 4
 # Cycles per second that are looked at, and cycles in the longest run below which none is.
 HIGHEST_RATE, FEWEST_CYCLES = 5.0, 4.0
+# Harmonics of something that comes again and again, as a short push does.
+TEETH = 4
+# Steps between the least and the largest command that are looked for at most, and how many
+# commands that takes: a few that lie evenly look like steps.
+MOST_STEPS, FEWEST_FORCES = 300.0, 100
 # Points per line width of the spectrum; samples that a cycle needs at the usual speed.
 FINENESS, SAMPLES_PER_CYCLE = 3.0, 3.0
 # Points to which errors are moved, in the shortest wave: it loses a hundredth of its power.
 POINTS_PER_CYCLE = 32.0
-# Beside a peak, this many line widths are its side lobes; so many times as far reaches the floor
-# out of which a line must stand, so seldom by chance, and of so many points at least it is known.
-SIDE_LOBES, FLOOR, FEWEST_POINTS = 5.0, 10.0, 20
+# Beside a peak, this many line widths are its side lobes; the floor out of which a line must
+# stand, so seldom by chance, is the median over so many.
+SIDE_LOBES, FLOOR = 5.0, 100.0
 LINE_LEVEL = 1e-3
 # Median of the squared amplitude of two columns of noise, over the mean of one.
 MEDIAN = 1.678
@@ -35,21 +41,41 @@ def wheel_orders(fit: Fit) -> tuple[float, ...]:
         return ()
     spacing = 2.0 * np.pi / (FINENESS * float(np.ptp(angles, axis=0).max()))
     highest = min(HIGHEST, 2.0 * np.pi / (SAMPLES_PER_CYCLE * usual))
-    orders = np.arange(LOWEST, highest, max(spacing, 1e-4))
-    return _strongest(orders, angles, weights, spacing)
+    return _strongest((LOWEST, highest), max(spacing, 1e-4), angles, weights)
 
 
 def rates(fit: Fit) -> tuple[float, ...]:
     """Return the cycles per second at which the innovations are strongest."""
+    return _rates(fit, 1)
+
+
+def repeats(fit: Fit) -> tuple[float, ...]:
+    """Return the cycles per second of which several harmonics together are strongest."""
+    return _rates(fit, TEETH)
+
+
+def force_steps(fit: Fit) -> tuple[float, ...]:
+    """Return the steps of the commanded force [N] with which the innovations are strongest."""
+    seen = views(fit, fit.stretches)
+    force = np.concatenate([view.force for view in seen])
+    if len(np.unique(force)) < FEWEST_FORCES:
+        return ()
+    errors = np.concatenate([view.innovation @ view.mix for view in seen])
+    spacing = 1.0 / (FINENESS * float(np.ptp(force)))
+    band = FEWEST_CYCLES * FINENESS * spacing, MOST_STEPS * FINENESS * spacing
+    return tuple(1.0 / rate for rate in _strongest(band, spacing, 2.0 * np.pi * force, errors))
+
+
+def _rates(fit: Fit, teeth: int) -> tuple[float, ...]:
     time = np.concatenate([stretch.time for stretch in fit.stretches])
     errors = np.concatenate([v.innovation / fit.sigma for v in views(fit, fit.stretches)])
     spacing = 1.0 / (FINENESS * max(float(np.ptp(s.time)) for s in fit.stretches))
     interval = max(stretch.interval for stretch in fit.stretches)
     highest = min(HIGHEST_RATE, 1.0 / (SAMPLES_PER_CYCLE * interval))
     # Slower than this it would be a drift.
-    cycles = np.arange(FEWEST_CYCLES * FINENESS * spacing, highest, spacing)
+    lowest = FEWEST_CYCLES * FINENESS * spacing
     turns = np.repeat(2.0 * np.pi * time[:, None], 2, axis=1)
-    return _strongest(cycles, turns, errors, spacing)
+    return _strongest((lowest, highest), spacing, turns, errors, teeth)
 
 
 def _by_wheel(fit: Fit) -> tuple[Array, Array]:
@@ -59,15 +85,32 @@ def _by_wheel(fit: Fit) -> tuple[Array, Array]:
     return np.concatenate(angles), np.concatenate(errors)
 
 
-def _strongest(orders: Array, angles: Array, errors: Array, spacing: float) -> tuple[float, ...]:
-    """Return the orders whose waves are strongest in the errors, if they stand out of others.
+def _strongest(
+    band: tuple[float, float], spacing: float, angles: Array, errors: Array, teeth: int = 1
+) -> tuple[float, ...]:
+    """Return the orders in a band whose waves are strongest in the errors, if they stand out.
 
-    spacing: of a fine spectrum. Errors that depend on the angle or on time anyhow, not in waves,
-    have as much power all around.
+    spacing: of a fine spectrum; teeth: harmonics that are taken together. Errors that depend on
+    the angle or on time anyhow, not in waves, have as much power all around.
     """
-    if len(orders) < 3:
+    step = spacing / teeth
+    first, end = ceil(band[0] / step), ceil(band[1] / step)
+    fundamentals = np.arange(first, (end - 1) // teeth + 1)
+    if len(fundamentals) < 3:
         return ()
-    return _peaks(orders, _power(orders, angles, errors), SIDE_LOBES * FINENESS * spacing)
+    orders = np.asarray(step * np.arange(first, end), float)
+    power = _power(orders, angles, errors)
+    heights = MEDIAN * power / _floor(power, FLOOR * FINENESS * teeth)
+    comb: Array = np.sum([heights[h * fundamentals - first] for h in range(1, teeth + 1)], axis=0)
+    least = float(gammainccinv(2 * teeth, LINE_LEVEL * FINENESS / len(fundamentals)))
+    return _peaks(orders[: len(fundamentals)], comb, least, SIDE_LOBES * FINENESS * spacing)
+
+
+def _floor(power: Array, width: float) -> Array:
+    """Return the median of a spectrum around each of its points; width: how many these are."""
+    parts = np.array_split(np.arange(len(power)), max(1, round(len(power) / width)))
+    medians = [np.median(power[part]) for part in parts]
+    return np.interp(np.arange(len(power)), [part.mean() for part in parts], medians)
 
 
 def _power(orders: Array, angles: Array, errors: Array) -> Array:
@@ -86,26 +129,16 @@ def _power(orders: Array, angles: Array, errors: Array) -> Array:
     return np.asarray(np.sum(np.abs(waves) ** 2, axis=1))
 
 
-def _peaks(orders: Array, power: Array, apart: float) -> tuple[float, ...]:
+def _peaks(orders: Array, height: Array, least: float, apart: float) -> tuple[float, ...]:
     """Return the orders of the highest local maxima, the highest first, side lobes left out."""
-    inner = (power[1:-1] >= power[:-2]) & (power[1:-1] >= power[2:])
+    inner = (height[1:-1] >= height[:-2]) & (height[1:-1] >= height[2:]) & (height[1:-1] > least)
     places = 1 + np.flatnonzero(inner)
     kept: list[float] = []
-    for place in places[np.argsort(power[places])[::-1]]:
-        order = float(orders[place] + (orders[1] - orders[0]) * _summit(power[place - 1 :][:3]))
+    for place in places[np.argsort(height[places])[::-1]]:
+        order = float(orders[place] + (orders[1] - orders[0]) * _summit(height[place - 1 :][:3]))
         if all(abs(order - other) > apart for other in kept):
             kept.append(order)
-    return tuple(order for order in kept[:KEPT] if _stands_out(order, orders, power, apart))
-
-
-def _stands_out(order: float, orders: Array, power: Array, apart: float) -> bool:
-    """Say whether noise with the floor around an order would hardly be as strong anywhere."""
-    distance = np.abs(orders - order)
-    around = power[(distance > apart) & (distance < FLOOR * apart)]
-    if len(around) < FEWEST_POINTS:
-        return True
-    height = float(power[distance <= orders[1] - orders[0]].max() * MEDIAN / np.median(around))
-    return (1.0 + height) * exp(-height) * len(orders) / FINENESS < LINE_LEVEL
+    return tuple(kept[:KEPT])
 
 
 def _summit(power: Array) -> float:

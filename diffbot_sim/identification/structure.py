@@ -8,12 +8,14 @@ from diffbot_sim.identification.bases import Basis, again, bases
 from diffbot_sim.identification.dependence import (
     Dependence,
     acting,
+    against_the_model,
     explained_by,
     realised,
     sensitivity,
     worth_of,
 )
 from diffbot_sim.identification.fitting import Fit, whitened
+from diffbot_sim.identification.floor import by_place
 from diffbot_sim.identification.gains import chance_of, folds_chance
 from diffbot_sim.identification.guards import (
     EITHER_LEVEL,
@@ -57,7 +59,9 @@ def find_dependences(screen: Screen, held_out: Sequence[Stretch]) -> list[Depend
     tried = dependences(screen)
     promising = [d for d in tried if not is_chance(d.p_value, len(tried))]
     fitted = [realised(screen.fit, d) for d in _best_of_each(promising)[:FOLLOWED]]
-    found = [d for d in fitted if _is_beyond_doubt(screen, d, held_out, len(tried))]
+    beyond = (d for d in fitted if _is_beyond_doubt(screen, d, held_out, len(tried)))
+    fair = [against_the_model(screen.fit, d) for d in beyond]
+    found = [d for d in fair if not _may_be_chance(d, screen.fit, len(tried))]
     worths = [worth_of(dependence, screen.fit) for dependence in found]
     most = max(worths, default=0.0)
     near = [d for d, worth in zip(found, worths, strict=True) if worth >= ALMOST * most]
@@ -75,19 +79,26 @@ def _best_of_each(dependences: Sequence[Dependence]) -> list[Dependence]:
 def _is_beyond_doubt(
     screen: Screen, dependence: Dependence, held_out: Sequence[Stretch], tried: int
 ) -> bool:
-    if may_be_chance(dependence.p_value, worth_of(dependence, screen.fit), tried):
+    if _may_be_chance(dependence, screen.fit, tried):
         return False
     if dependence.p_block > EITHER_LEVEL:
         return False
-    chance = _held_out_chance(screen.fit, dependence, held_out)
-    elsewhere = best_look(chance, _folds_chance(screen, dependence.basis))
+    elsewhere = _folds_chance(screen, dependence.basis)
+    # A rough floor is the same again where the robot comes back: that confirms nothing.
+    if VARIABLES[dependence.basis.variable].order is not by_place:
+        elsewhere = best_look(elsewhere, _held_out_chance(screen.fit, dependence, held_out))
     return lasting(dependence.p_block, elsewhere)
 
 
+def _may_be_chance(dependence: Dependence, fit: Fit, tried: int) -> bool:
+    return may_be_chance(dependence.p_value, worth_of(dependence, fit), tried)
+
+
 def _folds_chance(screen: Screen, basis: Basis) -> float:
-    """Return the chance of what it predicts of each part of the runs from others, first order."""
-    slopes = screen.project(sensitivity(screen, basis))
-    return folds_chance(screen.residual, slopes.reshape(-1, basis.size))
+    """Return the chance of what it predicts of each part from others, to first order."""
+    slopes = screen.project(sensitivity(screen, basis)).reshape(-1, basis.size)
+    errors, columns = (basis.parted(r, screen.fit.stretches) for r in (screen.residual, slopes))
+    return folds_chance(errors, columns)
 
 
 def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) -> float:
@@ -110,7 +121,7 @@ def describe(dependence: Dependence, fit: Fit) -> Structure:
     return Structure(
         description=(
             f'a {kind} of {strength:.3g} {unit} rms that depends on '
-            f'{VARIABLES[basis.variable].words} and that no effect of the library accounts for'
+            f'{basis.words} and that no effect of the library accounts for'
         ),
         axis=basis.axis,
         variable=basis.variable,

@@ -1,9 +1,12 @@
 """What a force without a law may depend on, and in which form that is looked at."""
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from diffbot_sim.identification.fitting import Fit
+from diffbot_sim.identification.floor import Order, by_place, in_time
 from diffbot_sim.identification.forms import (
     BENT_KNOTS,
     FINE_KNOTS,
@@ -15,7 +18,15 @@ from diffbot_sim.identification.forms import (
     Piecewise,
     TwoSided,
 )
-from diffbot_sim.identification.periodicity import rates, wheel_orders
+from diffbot_sim.identification.periodicity import (
+    TEETH,
+    force_steps,
+    rates,
+    repeats,
+    wheel_orders,
+)
+from diffbot_sim.identification.starting import rest_before, started
+from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.identification.views import View
 from diffbot_sim.records import Array
 
@@ -26,11 +37,16 @@ BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
 
 @dataclass(frozen=True)
 class Variable:
-    """A variable in words, its form, and along which axes a force may depend on it."""
+    """A variable in words, its form, and along which axes a force may depend on it.
+
+    words: rate and period stand for those of the slowest wave of a form; order: in which samples
+    are cut into parts that must agree.
+    """
 
     words: str
     form: Form
     axes: tuple[str, ...]
+    order: Callable[[Sequence[Stretch]], Order] = in_time
 
 
 def _time(view: View) -> Array:
@@ -65,6 +81,20 @@ def _place(index: int) -> Of:
     return lambda view: np.repeat(_along(index)(view)[:, None], 2, axis=1)
 
 
+def _orders(fit: Fit) -> list[tuple[float, ...]]:
+    return [(order,) for order in wheel_orders(fit)]
+
+
+def _steps(fit: Fit) -> list[tuple[float, ...]]:
+    return [(1.0 / step,) for step in force_steps(fit)]
+
+
+def _rhythms(fit: Fit) -> list[tuple[float, ...]]:
+    """Return single waves, and waves with their harmonics: of a short push, again and again."""
+    single = [(rate,) for rate in rates(fit)]
+    return [*single, *(tuple(rate * h for h in range(1, TEETH + 1)) for rate in repeats(fit))]
+
+
 def _share_of_force(view: View) -> Array:
     return np.asarray(view.force / max(float(np.abs(view.force).max()), 1e-9))
 
@@ -88,8 +118,8 @@ VARIABLES = {
     ),
     'time': Variable('time', Piecewise(_time), BODY),
     'rhythm': Variable(
-        'time, with a steady rhythm',
-        Periodic(lambda view: 2.0 * np.pi * view.stretch.time, rates, 1, LOOKED_AT),
+        'time, the same again every {period:.3g} s',
+        Periodic(lambda view: 2.0 * np.pi * view.stretch.time, _rhythms, LOOKED_AT),
         BODY,
     ),
     'wheel_speed': Variable(
@@ -103,14 +133,24 @@ VARIABLES = {
         WHEELS,
     ),
     'wheel_angle': Variable(
-        "each wheel's angle",
-        Periodic(lambda view: view.wheel_angle, wheel_orders, 1, LOOKED_AT),
+        "each wheel's angle, the same again {rate:.3g} times a turn",
+        Periodic(lambda view: view.wheel_angle, _orders, LOOKED_AT),
         ('wheels',),
     ),
     'wheel_force': Variable(
         "each wheel's commanded force", Piecewise(lambda view: view.force), WHEELS
     ),
+    'force_steps': Variable(
+        "each wheel's commanded force, as if it came in steps of {period:.3g} N",
+        Periodic(lambda view: 2.0 * np.pi * view.force, _steps, LOOKED_AT),
+        ('wheels',),
+    ),
     'past_force': Variable("the past of each wheel's commanded force", Past(), WHEELS),
+    'rest_before': Variable(
+        'how long each wheel rested before it started',
+        Piecewise(rest_before, started, BENT_KNOTS),
+        ('wheels',),
+    ),
     'force_over_time': Variable(
         'time, in proportion to the commanded force',
         Piecewise(_time_of_wheels, _share_of_force, BENT_KNOTS),
@@ -123,20 +163,24 @@ VARIABLES = {
         'where along x it is, like the pull of a hill',
         Piecewise(_along(0), _towards(0), FINE_KNOTS),
         ('v',),
+        by_place,
     ),
     'hill_y': Variable(
         'where along y it is, like the pull of a hill',
         Piecewise(_along(1), _towards(1), FINE_KNOTS),
         ('v',),
+        by_place,
     ),
     'place_x': Variable(
         'where along x it rolls, against the motion',
         Piecewise(_place(0), _rolling, FINE_KNOTS),
         ('wheels',),
+        by_place,
     ),
     'place_y': Variable(
         'where along y it rolls, against the motion',
         Piecewise(_place(1), _rolling, FINE_KNOTS),
         ('wheels',),
+        by_place,
     ),
 }

@@ -55,7 +55,7 @@ VARIABLES = {
     'time': Variable('time [s]', lambda run: run.time),
 }
 # Radians everywhere, degrees on paper.
-ANGLES = ('heading', 'friction_over_heading', 'wheel_angle', 'rhythm')
+ANGLES = ('heading', 'friction_over_heading', 'wheel_angle', 'rhythm', 'force_steps')
 # Of variables in which structure without a name is looked for; the others are those above.
 STRUCTURE_LABELS = {
     'turning': 'turn rate ω [rad/s]',
@@ -65,6 +65,8 @@ STRUCTURE_LABELS = {
     'wheel_speed': 'speed of a wheel [m/s]',
     'rolling': 'speed of a wheel [m/s]',
     'wheel_force': "a wheel's commanded force [N]",
+    'force_steps': 'command over its step, as a phase [°]',
+    'rest_before': 'rest of a wheel before it starts [s]',
     'past_force': 'age of the command [s]',
     'force_over_time': 'time [s]',
     'friction_over_time': 'time [s]',
