@@ -1,32 +1,91 @@
 """Structure that no effect accounts for, found in what a fit leaves."""
 
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.dependence import Dependence
-from diffbot_sim.identification.fitting import FIRST_GAINS, fit_prediction
+from diffbot_sim.identification.dependence import Dependence, against_the_model, realised
+from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
 from diffbot_sim.identification.screening import Screen
-from diffbot_sim.identification.stretches import split
-from diffbot_sim.identification.structure import find_dependences
+from diffbot_sim.identification.stretches import Stretch, split
+from diffbot_sim.identification.structure import dependences, find_dependences
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
+from diffbot_sim.records import Array, Commands, Run
 
-ROUGH = Surroundings(roughness=0.3)
+SMOOTH, ROUGH = Surroundings(), Surroundings(roughness=0.3)
 
 
-def left_by(truth: Model, seed: int) -> list[Dependence]:
-    """Return what a fit of the plain model leaves of a minute on a rough floor."""
-    run = rehearse(truth, random_forces(seed, 60.0, -9.0, 11.0), ROUGH, seed)
-    fitted, held_out = split([run])
+def fitted(run: Run) -> tuple[Fit, tuple[Stretch, ...]]:
+    """Return a fit of the plain model to a run, and the held-out rest."""
+    learned, held_out = split([run])
     space = Space(Model(), ())
-    fit = fit_prediction(space, fitted, space.prior(), FIRST_GAINS)
+    return fit_prediction(space, learned, space.prior(), FIRST_GAINS), held_out
+
+
+def left_by(run: Run) -> list[Dependence]:
+    """Return what a fit of the plain model leaves of a run."""
+    fit, held_out = fitted(run)
     return find_dependences(Screen(fit), held_out)
 
 
+def acted_otherwise(commands: Commands, force: Array, around: Surroundings = SMOOTH) -> Run:
+    """Return what is recorded where the wheels get another force than was commanded."""
+    run = rehearse(Model(), replace(commands, force=force), around, 3)
+    return replace(run, commands=commands)
+
+
 def test_rough_floor_alone_leaves_nothing_to_be_told() -> None:
-    assert left_by(Model(), 4) == []
+    drive = random_forces(4, 60.0, -9.0, 11.0)
+    assert left_by(rehearse(Model(), drive, ROUGH, 4)) == []
 
 
 def test_weak_force_in_proportion_to_something_is_told_as_a_line() -> None:
-    left, *_ = left_by(Model().with_effect(ActuatorGain(imbalance=0.03)), 3)
+    uneven = Model().with_effect(ActuatorGain(imbalance=0.03))
+    left, *_ = left_by(rehearse(uneven, random_forces(3, 60.0, -9.0, 11.0), ROUGH, 3))
     assert (left.basis.variable, left.basis.axis) == ('wheel_force', 'difference')
     assert left.basis.size == 2
+
+
+def test_forces_in_steps_are_told_with_the_step() -> None:
+    time = np.arange(0.0, 60.0, 0.02)
+    waves = [np.sin(np.outer(time, rates)).sum(axis=1) for rates in ((0.7, 1.9), (0.9, 2.3))]
+    smooth = Commands(time, 1.0 + 5.0 * np.column_stack(waves))
+    left, *_ = left_by(acted_otherwise(smooth, 1.7 * np.round(smooth.force / 1.7)))
+    assert left.basis.variable == 'force_steps'
+    assert 1.0 / left.basis.grid[0] == pytest.approx(1.7, rel=0.01)
+
+
+def test_push_that_comes_again_and_again_is_told_with_its_period() -> None:
+    drive = random_forces(3, 60.0, -9.0, 11.0)
+    pushed = drive.force + 2.0 * (drive.time % 3.2 < 0.4)[:, None]
+    left, *_ = left_by(acted_otherwise(drive, pushed, ROUGH))
+    assert (left.basis.variable, left.basis.axis) == ('rhythm', 'v')
+    assert 'every 3.2 s' in left.basis.words
+
+
+def test_wheels_that_stick_the_more_the_longer_they_rest_are_told_by_their_rest() -> None:
+    rests = np.random.default_rng(1).uniform(0.2, 6.0, 24)
+    starts = np.cumsum(rests + 3.0) - 3.0
+    time = np.arange(0.0, starts[-1] + 3.0, 0.02)
+    last = np.searchsorted(starts, time, side='right') - 1
+    since = np.where(last >= 0, time - starts[last], np.inf)
+    ramp = np.where(since < 2.0, np.minimum(6.0 * since, 5.0), 0.0)
+    held = ramp < 2.4 + 0.8 * np.log(rests[last] / 2.0)
+    both = np.repeat(np.column_stack([ramp, np.where(held, 0.0, ramp)])[:, None], 2, axis=1)
+    left, *_ = left_by(acted_otherwise(Commands(time, both[..., 0]), both[..., 1]))
+    assert left.basis.variable == 'rest_before'
+
+
+@pytest.mark.parametrize('name', ['v', 'wheel_speed'])
+def test_better_fit_that_the_model_finds_alone_is_no_merit_of_a_form(name: str) -> None:
+    run = rehearse(Model(), random_forces(4, 60.0, -9.0, 11.0), SMOOTH, 4)
+    best, _ = fitted(run)
+    poor = replace(best, u=best.u + 0.02)
+    like = next(d for d in dependences(Screen(poor)) if d.basis.variable == name)
+    lucky = realised(poor, like)
+    assert lucky.fall > 100.0
+    assert against_the_model(poor, lucky).fall < 0.1 * lucky.fall

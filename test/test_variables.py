@@ -1,5 +1,6 @@
 """What free-form forces depend on, and how they push the body."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -10,6 +11,7 @@ from diffbot_sim.identification.bases import Basis
 from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, predictions
 from diffbot_sim.identification.forms import PAST
+from diffbot_sim.identification.starting import START, rest_before, started
 from diffbot_sim.identification.stretches import whole
 from diffbot_sim.identification.variables import VARIABLES
 from diffbot_sim.identification.views import View
@@ -72,6 +74,21 @@ def test_line_and_curve_are_tried_from_end_to_end(view: View) -> None:
     assert (len(line), len(curve)) == (2, 6)
     assert {line[0], curve[0]} == {view.v.min()}
     assert {line[-1], curve[-1]} == {view.v.max()}
+
+
+def test_friction_after_a_rest_acts_as_wheels_start(view: View) -> None:
+    count = len(view.stretch.time)
+    right = np.where(np.arange(count) % 100 < 40, 0.0, -0.2)
+    twist = np.column_stack([0.5 * right, 0.5 * right / view.fit.model.half_separation])
+    stop_and_go = replace(view, prediction=replace(view.prediction, twist=twist))
+    interval = view.stretch.interval
+    rolling = np.arange(count) % 100 >= 40
+    assert rest_before(stop_and_go)[rolling, 0] == pytest.approx(39 * interval)
+    begun = (np.arange(count) % 100 - 39) * interval
+    backward = started(stop_and_go)[:, 0] < 0.0
+    assert np.all(backward[rolling & (begun < START - 0.5 * interval)])
+    assert not np.any(backward[~rolling | (begun > START + 0.5 * interval)])
+    assert not np.any(started(stop_and_go)[:, 1])
 
 
 def test_past_of_a_steady_command_is_that_command(view: View) -> None:
