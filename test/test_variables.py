@@ -10,7 +10,7 @@ from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.bases import Basis
 from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, predictions
-from diffbot_sim.identification.forms import PAST
+from diffbot_sim.identification.forms import PAST, Growth
 from diffbot_sim.identification.starting import START, rest_before, started
 from diffbot_sim.identification.stretches import whole
 from diffbot_sim.identification.variables import VARIABLES
@@ -76,6 +76,13 @@ def test_line_and_curve_are_tried_from_end_to_end(view: View) -> None:
     assert {line[-1], curve[-1]} == {view.v.max()}
 
 
+def test_growth_has_no_mean_over_the_quantiles() -> None:
+    form = Growth(lambda view: view.v, counts=(5,))
+    _, design = form.curve(np.linspace(0.0, 1.0, 5))
+    np.testing.assert_allclose(np.array([0.5, 1.0, 1.0, 1.0, 0.5]) @ design, 0.0, atol=1e-12)
+    assert np.linalg.matrix_rank(design) == 4
+
+
 def test_friction_after_a_rest_acts_as_wheels_start(view: View) -> None:
     count = len(view.stretch.time)
     right = np.where(np.arange(count) % 100 < 40, 0.0, -0.2)
@@ -83,7 +90,7 @@ def test_friction_after_a_rest_acts_as_wheels_start(view: View) -> None:
     stop_and_go = replace(view, prediction=replace(view.prediction, twist=twist))
     interval = view.stretch.interval
     rolling = np.arange(count) % 100 >= 40
-    assert rest_before(stop_and_go)[rolling, 0] == pytest.approx(39 * interval)
+    assert rest_before(stop_and_go)[rolling, 0] == pytest.approx(np.log(39 * interval))
     begun = (np.arange(count) % 100 - 39) * interval
     backward = started(stop_and_go)[:, 0] < 0.0
     assert np.all(backward[rolling & (begun < START - 0.5 * interval)])

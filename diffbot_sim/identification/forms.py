@@ -17,7 +17,7 @@ from diffbot_sim.records import Array
 
 # Numbers of knots: a line, of few functions, shows what is weak; many show what is of any form.
 # Bent ones are for what lines do not tell apart: friction at both sides of zero is a line already.
-KNOTS, BENT_KNOTS, FINE_KNOTS = (2, 6), (3, 6), (2, 6, 20)
+KNOTS, BENT_KNOTS, FEW_KNOTS, FINE_KNOTS = (2, 6), (3, 6), (2, 4), (2, 6, 20)
 # Edges of the spans in which the past of a command is averaged [s].
 PAST = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
 
@@ -57,6 +57,20 @@ class Piecewise:
     def curve(self, knots: Array) -> tuple[Array, Array]:
         """Return points of the variable and all functions there."""
         return knots, np.eye(len(knots))
+
+
+@dataclass(frozen=True)
+class Growth(Piecewise):
+    """The same, less what is alike at all values: nothing in the mean over the quantiles."""
+
+    def columns(self, view: View, knots: Array) -> Array:
+        """Evaluate differences of hats along a stretch."""
+        hats = super().columns(view, knots)
+        return np.asarray(np.einsum('kqc,qr->krc', hats, _differences(len(knots))))
+
+    def curve(self, knots: Array) -> tuple[Array, Array]:
+        """Return points of the variable and all functions there."""
+        return knots, _differences(len(knots))
 
 
 @dataclass(frozen=True)
@@ -160,13 +174,21 @@ class Past:
         return 0.5 * (edges[1:] + edges[:-1]), np.eye(len(edges) - 1)
 
 
-Form = Piecewise | TwoSided | Odd | Periodic | Past
+Form = Piecewise | Growth | TwoSided | Odd | Periodic | Past
 
 
 def _hats(values: Array, knots: Array, weights: Array) -> Array:
     """Return weighted hat functions, shape (k, q, 1 or 2)."""
     hats = [weights * np.interp(values, knots, hat) for hat in np.eye(len(knots))]
     return np.stack([hat.reshape(len(hat), -1) for hat in hats], axis=1)
+
+
+def _differences(count: int) -> Array:
+    """Return what takes hats at quantiles to functions without a mean, shape (n, n - 1)."""
+    shares = np.ones(count)
+    shares[[0, -1]] = 0.5
+    apart = np.diag(1.0 / shares)
+    return np.asarray(apart[:, :-1] - apart[:, 1:])
 
 
 def _waves(angle: Array, rates: Array) -> Array:

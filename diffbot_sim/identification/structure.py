@@ -18,6 +18,7 @@ from diffbot_sim.identification.fitting import Fit, whitened
 from diffbot_sim.identification.floor import by_place
 from diffbot_sim.identification.gains import chance_of, folds_chance
 from diffbot_sim.identification.guards import (
+    BLOCK_LEVEL,
     EITHER_LEVEL,
     best_look,
     is_chance,
@@ -84,9 +85,11 @@ def _is_beyond_doubt(
     if dependence.p_block > EITHER_LEVEL:
         return False
     elsewhere = _folds_chance(screen, dependence.basis)
-    # A rough floor is the same again where the robot comes back: that confirms nothing.
-    if VARIABLES[dependence.basis.variable].order is not by_place:
-        elsewhere = best_look(elsewhere, _held_out_chance(screen.fit, dependence, held_out))
+    # A rough floor is the same again where the robot comes back, so that held-out data confirm
+    # nothing: other parts of the floor must, and be as sure as blocks.
+    if VARIABLES[dependence.basis.variable].order is by_place:
+        return elsewhere <= BLOCK_LEVEL and lasting(dependence.p_block, elsewhere)
+    elsewhere = best_look(elsewhere, _held_out_chance(screen.fit, dependence, held_out))
     return lasting(dependence.p_block, elsewhere)
 
 

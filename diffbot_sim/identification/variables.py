@@ -9,8 +9,10 @@ from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.floor import Order, by_place, in_time
 from diffbot_sim.identification.forms import (
     BENT_KNOTS,
+    FEW_KNOTS,
     FINE_KNOTS,
     Form,
+    Growth,
     Odd,
     Of,
     Past,
@@ -148,7 +150,7 @@ VARIABLES = {
     'past_force': Variable("the past of each wheel's commanded force", Past(), WHEELS),
     'rest_before': Variable(
         'how long each wheel rested before it started',
-        Piecewise(rest_before, started, BENT_KNOTS),
+        Growth(rest_before, started, FEW_KNOTS),
         ('wheels',),
     ),
     'force_over_time': Variable(

@@ -66,7 +66,7 @@ STRUCTURE_LABELS = {
     'rolling': 'speed of a wheel [m/s]',
     'wheel_force': "a wheel's commanded force [N]",
     'force_steps': 'command over its step, as a phase [°]',
-    'rest_before': 'rest of a wheel before it starts [s]',
+    'rest_before': 'rest of a wheel before it starts [ln s]',
     'past_force': 'age of the command [s]',
     'force_over_time': 'time [s]',
     'friction_over_time': 'time [s]',
