@@ -26,6 +26,8 @@ POINTS_PER_CYCLE = 32.0
 # stand, so seldom by chance, is the median over so many.
 SIDE_LOBES, FLOOR = 5.0, 100.0
 LINE_LEVEL = 1e-3
+# Where errors are all zero.
+TINY = 1e-300
 # Median of the squared amplitude of two columns of noise, over the mean of one.
 MEDIAN = 1.678
 
@@ -54,8 +56,8 @@ def repeats(fit: Fit) -> tuple[float, ...]:
     return _rates(fit, TEETH)
 
 
-def force_steps(fit: Fit) -> tuple[float, ...]:
-    """Return the steps of the commanded force [N] with which the innovations are strongest."""
+def force_rates(fit: Fit) -> tuple[float, ...]:
+    """Return the cycles per newton of commanded force at which the innovations are strongest."""
     seen = views(fit, fit.stretches)
     force = np.concatenate([view.force for view in seen])
     if len(np.unique(force)) < FEWEST_FORCES:
@@ -63,7 +65,7 @@ def force_steps(fit: Fit) -> tuple[float, ...]:
     errors = np.concatenate([view.innovation @ view.mix for view in seen])
     spacing = 1.0 / (FINENESS * float(np.ptp(force)))
     band = FEWEST_CYCLES * FINENESS * spacing, MOST_STEPS * FINENESS * spacing
-    return tuple(1.0 / rate for rate in _strongest(band, spacing, 2.0 * np.pi * force, errors))
+    return _strongest(band, spacing, 2.0 * np.pi * force, errors)
 
 
 def _rates(fit: Fit, teeth: int) -> tuple[float, ...]:
@@ -109,7 +111,7 @@ def _strongest(
 def _floor(power: Array, width: float) -> Array:
     """Return the median of a spectrum around each of its points; width: how many these are."""
     parts = np.array_split(np.arange(len(power)), max(1, round(len(power) / width)))
-    medians = [np.median(power[part]) for part in parts]
+    medians = [max(float(np.median(power[part])), TINY) for part in parts]
     return np.interp(np.arange(len(power)), [part.mean() for part in parts], medians)
 
 
@@ -143,6 +145,6 @@ def _peaks(orders: Array, height: Array, least: float, apart: float) -> tuple[fl
 
 def _summit(power: Array) -> float:
     """Return where between -1 and 1 the parabola through three logarithms is highest."""
-    left, middle, right = np.log(np.maximum(power, 1e-300))
+    left, middle, right = np.log(np.maximum(power, TINY))
     bend = left - 2.0 * middle + right
     return float(0.5 * (left - right) / bend) if bend < 0.0 else 0.0

@@ -22,7 +22,7 @@ from diffbot_sim.identification.forms import (
 )
 from diffbot_sim.identification.periodicity import (
     TEETH,
-    force_steps,
+    force_rates,
     rates,
     repeats,
     wheel_orders,
@@ -83,18 +83,15 @@ def _place(index: int) -> Of:
     return lambda view: np.repeat(_along(index)(view)[:, None], 2, axis=1)
 
 
-def _orders(fit: Fit) -> list[tuple[float, ...]]:
-    return [(order,) for order in wheel_orders(fit)]
-
-
-def _steps(fit: Fit) -> list[tuple[float, ...]]:
-    return [(1.0 / step,) for step in force_steps(fit)]
+def _alone(rates: Callable[[Fit], Sequence[float]]) -> Callable[[Fit], list[tuple[float, ...]]]:
+    """Return what gives each rate as a wave of its own."""
+    return lambda fit: [(rate,) for rate in rates(fit)]
 
 
 def _rhythms(fit: Fit) -> list[tuple[float, ...]]:
     """Return single waves, and waves with their harmonics: of a short push, again and again."""
-    single = [(rate,) for rate in rates(fit)]
-    return [*single, *(tuple(rate * h for h in range(1, TEETH + 1)) for rate in repeats(fit))]
+    repeated = (tuple(rate * h for h in range(1, TEETH + 1)) for rate in repeats(fit))
+    return [*_alone(rates)(fit), *repeated]
 
 
 def _share_of_force(view: View) -> Array:
@@ -136,7 +133,7 @@ VARIABLES = {
     ),
     'wheel_angle': Variable(
         "each wheel's angle, the same again {rate:.3g} times a turn",
-        Periodic(lambda view: view.wheel_angle, _orders, LOOKED_AT),
+        Periodic(lambda view: view.wheel_angle, _alone(wheel_orders), LOOKED_AT),
         ('wheels',),
     ),
     'wheel_force': Variable(
@@ -144,7 +141,7 @@ VARIABLES = {
     ),
     'force_steps': Variable(
         "each wheel's commanded force, as if it came in steps of {period:.3g} N",
-        Periodic(lambda view: 2.0 * np.pi * view.force, _steps, LOOKED_AT),
+        Periodic(lambda view: 2.0 * np.pi * view.force, _alone(force_rates), LOOKED_AT),
         ('wheels',),
     ),
     'past_force': Variable("the past of each wheel's commanded force", Past(), WHEELS),
