@@ -148,6 +148,19 @@ def _sway(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'sway': 1.0 * size * make.plant.coulomb, 'sway_rate': 0.1 + 0.3 * c.share}
 
 
+def _repeated_push(make: Make, size: float, c: Chance) -> dict[str, float]:
+    force = 1.5 * size * c.sign * make.plant.coulomb
+    return {'knock': force, 'knock_time': 0.4, 'knock_period': 2.0 + 3.0 * c.share}
+
+
+def _coarse_force(make: Make, size: float, c: Chance) -> dict[str, float]:
+    return {'coarse': 0.2 * size * make.push}
+
+
+def _settling_stiction(make: Make, size: float, c: Chance) -> dict[str, float]:
+    return {'settling': 0.3 * size * make.plant.static}
+
+
 EFFECTS: dict[str, Law] = {
     'quadratic_drag': _quadratic_drag,
     'slope': _slope,
@@ -172,6 +185,9 @@ FOREIGN: dict[str, Law] = {
     'rough_patch': _rough_patch,
     'slip_loss': _slip_loss,
     'sway': _sway,
+    'repeated_push': _repeated_push,
+    'coarse_force': _coarse_force,
+    'settling_stiction': _settling_stiction,
 }
 
 

@@ -1,16 +1,20 @@
 """Forces of the peer plant: from commands to wheels, on the body, and the limits of friction."""
 
-from math import copysign, cos, exp, pi, sin
+from math import copysign, cos, exp, log, pi, sin
 
 from numba import njit
 from peer_plant import Plant
 
 GRAVITY = 9.81
+# A wheel that rests for less than this hardly settles [s].
+SETTLES = 0.5
 
 
 @njit(cache=True)
 def acting(p: Plant, command: float) -> float:
-    """Return the force [N] that a motor aims at: less the dead band, then clipped."""
+    """Return the force [N] that a motor aims at: in steps, less the dead band, then clipped."""
+    if p.coarse != 0.0:
+        command = p.coarse * round(command / p.coarse)
     size = max(abs(command) - p.deadband, 0.0)
     return copysign(min(size, p.saturation), command)
 
@@ -32,6 +36,8 @@ def body_force(p: Plant, time: float, mass: float, v: float, omega: float, yaw: 
     uphill = p.rise_x * cos(yaw) + p.rise_y * sin(yaw)
     force = mass * p.ahead * omega**2 - p.drag * v * abs(v) - mass * GRAVITY * uphill
     force += p.sway * sin(2.0 * pi * p.sway_rate * time)
+    if time % p.knock_period < p.knock_time:
+        force += p.knock
     if p.bump != 0.0 and v != 0.0:
         near = (abs(v) - p.bump_speed) / p.bump_width
         force -= copysign(p.bump * exp(-(near**2)), v)
@@ -47,11 +53,15 @@ def body_torque(p: Plant, mass: float, v: float, omega: float, yaw: float) -> fl
 
 @njit(cache=True)
 def wheel_friction(
-    p: Plant, time: float, x: float, speed: float, right: bool
+    p: Plant, time: float, x: float, speed: float, rest: float, right: bool
 ) -> tuple[float, float, float, float]:
-    """Return dry friction [N] forward, backward and viscous friction [N·s/m] likewise."""
+    """Return dry friction [N] forward, backward and viscous friction [N·s/m] likewise.
+
+    rest: for how long the wheel has been at rest [s].
+    """
     aged = 1.0 + p.warming * (1.0 - exp(-time / p.warm_time)) + p.wear * time
     dry = aged * (p.coulomb + (p.static - p.coulomb) * exp(-p.stribeck * abs(speed)))
+    dry += p.settling * log(1.0 + rest / SETTLES)
     viscous = aged * p.viscous
     if not right:
         dry *= 1.0 + p.left_dry

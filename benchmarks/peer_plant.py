@@ -82,3 +82,11 @@ class Plant(NamedTuple):
     # A force [N] of a frequency [Hz] in time.
     sway: float = 0.0
     sway_rate: float = 0.0
+    # A force [N] for knock_time [s] in every knock_period [s].
+    knock: float = 0.0
+    knock_time: float = 0.0
+    knock_period: float = 1.0
+    # Steps in which the force comes [N].
+    coarse: float = 0.0
+    # Dry friction of a wheel at rest [N]: settling ln(1 + rest / SETTLES) more.
+    settling: float = 0.0

@@ -19,9 +19,10 @@ STEP = 2e-4  # [s]
 SWEEPS, SETTLED = 100, 1e-11
 
 # The state: wheel speeds [m/s], pose [m, m, rad], wheel angles [rad], motor forces [N], friction
-# of the right wheel, the left one [N] and against turning [N·m], and the number of steps made.
+# of the right wheel, the left one [N] and against turning [N·m], the number of steps made, and for
+# how long the wheels have been at rest [s].
 RIGHT, LEFT, X, Y, YAW, ANGLE_R, ANGLE_L, MOTOR_R, MOTOR_L = range(9)
-FRICTION_R, FRICTION_L, SCRUB, COUNT, SIZE = range(9, 14)
+FRICTION_R, FRICTION_L, SCRUB, COUNT, REST_R, REST_L, SIZE = range(9, 16)
 
 
 def at_rest(p: Plant) -> tuple[Array, Array]:
@@ -66,6 +67,8 @@ def _roll(p: Plant, s: Array, time: float, force_r: float, force_l: float) -> No
     s[YAW] += turn
     s[ANGLE_R] += mean_r / p.radius
     s[ANGLE_L] += mean_l / p.radius
+    s[REST_R] = s[REST_R] + STEP if s[RIGHT] == 0.0 else 0.0
+    s[REST_L] = s[REST_L] + STEP if s[LEFT] == 0.0 else 0.0
 
 
 @njit(cache=True)
@@ -75,8 +78,8 @@ def _stick_or_slide(
     """Put frictions and wheel speeds into the state, from the speeds that none would leave."""
     own, other = STEP / mass + STEP * p.half**2 / inertia, STEP / mass - STEP * p.half**2 / inertia
     arm, turned = STEP * p.half / inertia, STEP / inertia
-    limits_r = wheel_friction(p, time, s[X], s[RIGHT], True)
-    limits_l = wheel_friction(p, time, s[X], s[LEFT], False)
+    limits_r = wheel_friction(p, time, s[X], s[RIGHT], s[REST_R], True)
+    limits_l = wheel_friction(p, time, s[X], s[LEFT], s[REST_L], False)
     limits_yaw = (p.yaw_dry, p.yaw_dry, p.yaw_viscous, p.yaw_viscous)
     right, left, omega = s[RIGHT], s[LEFT], 0.0
     f_r, f_l, scrub = s[FRICTION_R], s[FRICTION_L], s[SCRUB]

@@ -65,6 +65,28 @@ def test_delay_lag_and_dead_band_act_on_the_force():
     assert slow.twist[-1, 0] == pytest.approx(0.6 * (slow.time[-1] - 0.2), rel=1e-3)
 
 
+def test_force_in_steps_rounds_the_command():
+    run = driven(BARE._replace(coarse=2.0), 2.9, 1.1)
+    assert run.odometry.twist[-1, 0] == pytest.approx(0.4 * run.odometry.time[-1], rel=1e-9)
+
+
+def test_push_acts_at_the_start_of_each_period():
+    run = driven(BARE._replace(knock=5.0, knock_time=0.5, knock_period=2.0), 0.0, 0.0)
+    gained = 5.0 / 10.0 * 0.5
+    assert run.odometry.twist[[60, 190], 0] == pytest.approx([gained, 2.0 * gained], rel=1e-3)
+
+
+def test_wheel_that_has_settled_needs_more_to_break_away():
+    plant = BARE._replace(static=1.5, coulomb=1.5, settling=0.5)
+    force = np.array([1.7, 1.7])
+    soon, late = (
+        record(plant, lambda k, measured, first=first: force * (k >= first), QUIET, 0)
+        for first in (1, 100)
+    )
+    assert soon.odometry.twist[-1, 0] > 0.0
+    assert late.odometry.twist[-1, 0] == 0.0
+
+
 @pytest.mark.parametrize('drive', DRIVES)
 @pytest.mark.parametrize('make', MAKES)
 def test_clean_drive_agrees_with_our_simulator_far_below_the_noise(make, drive):
