@@ -154,11 +154,11 @@ def _repeated_push(make: Make, size: float, c: Chance) -> dict[str, float]:
 
 
 def _coarse_force(make: Make, size: float, c: Chance) -> dict[str, float]:
-    return {'coarse': 0.2 * size * make.push}
+    return {'coarse': 0.1 * size * make.push}
 
 
 def _settling_stiction(make: Make, size: float, c: Chance) -> dict[str, float]:
-    return {'settling': 0.3 * size * make.plant.static}
+    return {'settling': 0.15 * size * make.plant.static}
 
 
 EFFECTS: dict[str, Law] = {
