@@ -192,6 +192,6 @@ def _differences(count: int) -> Array:
 
 
 def _waves(angle: Array, rates: Array) -> Array:
-    """Return the cosine and the sine of each multiple of angles (k, 1 or 2)."""
-    turns = [rate * angle for rate in rates]
-    return np.stack([wave(turn) for turn in turns for wave in (np.cos, np.sin)], axis=1)
+    """Return the cosine and the sine of each multiple of angles (k, 1 or 2); of none, one."""
+    waves = [wave(rate * angle) for rate in rates if rate for wave in (np.cos, np.sin)]
+    return np.stack(waves + [np.ones_like(angle) for rate in rates if not rate], axis=1)

@@ -17,7 +17,7 @@ HIGHEST_RATE, FEWEST_CYCLES = 5.0, 4.0
 TEETH = 4
 # Steps between the least and the largest command that are looked for at most, and how many
 # commands that takes: a few that lie evenly look like steps.
-MOST_STEPS, FEWEST_FORCES = 300.0, 100
+MOST_STEPS, FEWEST_FORCES = 300.0, 30
 # Points per line width of the spectrum; samples that a cycle needs at the usual speed.
 FINENESS, SAMPLES_PER_CYCLE = 3.0, 3.0
 # Points to which errors are moved, in the shortest wave: it loses a hundredth of its power.
@@ -26,6 +26,8 @@ POINTS_PER_CYCLE = 32.0
 # stand, so seldom by chance, is the median over so many.
 SIDE_LOBES, FLOOR = 5.0, 100.0
 LINE_LEVEL = 1e-3
+# The same for steps: a force that is held is told by few errors, and no floor repeats with it.
+STEP_LEVEL = 0.05
 # Where errors are all zero.
 TINY = 1e-300
 # Median of the squared amplitude of two columns of noise, over the mean of one.
@@ -65,7 +67,7 @@ def force_rates(fit: Fit) -> tuple[float, ...]:
     errors = np.concatenate([view.innovation @ view.mix for view in seen])
     spacing = 1.0 / (FINENESS * float(np.ptp(force)))
     band = FEWEST_CYCLES * FINENESS * spacing, MOST_STEPS * FINENESS * spacing
-    return _strongest(band, spacing, 2.0 * np.pi * force, errors)
+    return _strongest(band, spacing, 2.0 * np.pi * force, errors, level=STEP_LEVEL)
 
 
 def _rates(fit: Fit, teeth: int) -> tuple[float, ...]:
@@ -88,11 +90,17 @@ def _by_wheel(fit: Fit) -> tuple[Array, Array]:
 
 
 def _strongest(
-    band: tuple[float, float], spacing: float, angles: Array, errors: Array, teeth: int = 1
+    band: tuple[float, float],
+    spacing: float,
+    angles: Array,
+    errors: Array,
+    teeth: int = 1,
+    level: float = LINE_LEVEL,
 ) -> tuple[float, ...]:
     """Return the orders in a band whose waves are strongest in the errors, if they stand out.
 
-    spacing: of a fine spectrum; teeth: harmonics that are taken together. Errors that depend on
+    spacing: of a fine spectrum; teeth: harmonics that are taken together; level: how seldom noise
+    may be as strong. Errors that depend on
     the angle or on time anyhow, not in waves, have as much power all around.
     """
     step = spacing / teeth
@@ -104,7 +112,7 @@ def _strongest(
     power = _power(orders, angles, errors)
     heights = MEDIAN * power / _floor(power, FLOOR * FINENESS * teeth)
     comb: Array = np.sum([heights[h * fundamentals - first] for h in range(1, teeth + 1)], axis=0)
-    least = float(gammainccinv(2 * teeth, LINE_LEVEL * FINENESS / len(fundamentals)))
+    least = float(gammainccinv(2 * teeth, level * FINENESS / len(fundamentals)))
     return _peaks(orders[: len(fundamentals)], comb, least, SIDE_LOBES * FINENESS * spacing)
 
 

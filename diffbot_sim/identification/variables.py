@@ -89,8 +89,8 @@ def _alone(rates: Callable[[Fit], Sequence[float]]) -> Callable[[Fit], list[tupl
 
 
 def _rhythms(fit: Fit) -> list[tuple[float, ...]]:
-    """Return single waves, and waves with their harmonics: of a short push, again and again."""
-    repeated = (tuple(rate * h for h in range(1, TEETH + 1)) for rate in repeats(fit))
+    """Return single waves, and short pushes: waves with their harmonics, and their mean."""
+    repeated = ((*(rate * h for h in range(1, TEETH + 1)), 0.0) for rate in repeats(fit))
     return [*_alone(rates)(fit), *repeated]
 
 
