@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
+from diffbot_sim.identification import identify
 from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.dependence import Dependence, against_the_model, realised
 from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
@@ -59,12 +60,23 @@ def test_forces_in_steps_are_told_with_the_step() -> None:
     assert 1.0 / left.basis.grid[0] == pytest.approx(1.7, rel=0.01)
 
 
-def test_push_that_comes_again_and_again_is_told_with_its_period() -> None:
+def pushed_again_and_again(around: Surroundings) -> Run:
+    """Return a minute in which something pushes for 0.4 s every 3.2 s."""
     drive = random_forces(3, 60.0, -9.0, 11.0)
-    pushed = drive.force + 2.0 * (drive.time % 3.2 < 0.4)[:, None]
-    left, *_ = left_by(acted_otherwise(drive, pushed, ROUGH))
+    return acted_otherwise(drive, drive.force + 2.0 * (drive.time % 3.2 < 0.4)[:, None], around)
+
+
+def test_push_that_comes_again_and_again_is_told_with_its_period() -> None:
+    left, *_ = left_by(pushed_again_and_again(ROUGH))
     assert (left.basis.variable, left.basis.axis) == ('rhythm', 'v')
     assert 'every 3.2 s' in left.basis.words
+
+
+def test_push_that_comes_again_and_again_is_no_bias() -> None:
+    result = identify([pushed_again_and_again(SMOOTH)], Model())
+    assert result.effects == ()
+    assert result.unexplained is not None
+    assert result.unexplained.variable == 'rhythm'
 
 
 def test_wheels_that_stick_the_more_the_longer_they_rest_are_told_by_their_rest() -> None:
