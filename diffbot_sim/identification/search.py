@@ -21,6 +21,7 @@ from diffbot_sim.identification.lateness import (
 from diffbot_sim.identification.predictor import MAX_STEP
 from diffbot_sim.identification.result import Structure, Timing
 from diffbot_sim.identification.selection import INDISTINGUISHABLE, Selection, select
+from diffbot_sim.identification.shaking import shaken
 from diffbot_sim.identification.start import restarted
 from diffbot_sim.identification.stretches import Stretch, split, whole
 from diffbot_sim.identification.trials import Progress
@@ -112,7 +113,8 @@ def _found(
     recalibrated = calibrate(Space(declared, ()), fitted)
     fitted = restarted(recalibrated.model, fitted, MAX_STEP)
     progress('fitting the noise model')
-    base = fit_prediction(recalibrated.space, fitted, recalibrated.u, FIRST_GAINS)
+    near = fit_prediction(recalibrated.space, fitted, recalibrated.u, FIRST_GAINS)
+    base = shaken(near)
     # One-step errors have fewer local minima: where they lead is one more start.
     again = fit_simulation(base.space, fitted, base.u)
     recalibrated = min(recalibrated, again, key=simulation_error)

@@ -9,6 +9,7 @@ from diffbot_sim.identification.evidence import Evidence, compare, delta_bic
 from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.guards import may_be_chance
 from diffbot_sim.identification.screening import Screen
+from diffbot_sim.identification.shaking import shaken
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.identification.trials import OUTDONE, Progress, Trial, try_all
 from diffbot_sim.physics.effects import Effect
@@ -68,7 +69,7 @@ def select(
             break
         _, best = max(entering, key=itemgetter(0))
         progress(f'{best.space.kinds[-1].name} enters')
-        path.append(Screen(begun_anew(best)))
+        path.append(Screen(shaken(begun_anew(best))))
     fits = [screen.fit for screen in path]
     final, without, support = _prune(fits, len(kinds), held_out, progress)
     chosen = set(without)

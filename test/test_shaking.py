@@ -1,0 +1,40 @@
+"""Fits shaken out of local minima."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
+from diffbot_sim.identification.coordinates import Space
+from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
+from diffbot_sim.identification.shaking import shaken
+from diffbot_sim.identification.stretches import split
+from diffbot_sim.physics import Friction, Model
+
+STATIC = 0.0616
+
+
+@pytest.fixture(scope='module')
+def from_either_side() -> list[Fit]:
+    """Fit a robot that starts hard, from static friction that is taken for too low or too high."""
+    model = replace(Model(), friction=replace(Friction(), mu_static=STATIC))
+    run = rehearse(model, random_forces(2, 60.0, -4.0, 6.0), Surroundings(), 2)
+    learned, _ = split([run])
+    space = Space(Model(), ())
+    index = [coordinate.name for coordinate in space.coordinates].index('mu_static')
+    starts = [space.prior() + np.eye(6)[index] * beside for beside in (0.2, 1.2)]
+    return [fit_prediction(space, learned, start, FIRST_GAINS) for start in starts]
+
+
+def test_fits_from_either_side_agree_once_shaken(from_either_side: list[Fit]) -> None:
+    low, high = (shaken(fit) for fit in from_either_side)
+    assert all(
+        fit.deviance(low.sigma) > low.deviance(low.sigma) + 10.0 for fit in from_either_side
+    )
+    assert high.deviance(low.sigma) == pytest.approx(low.deviance(low.sigma), abs=1.0)
+
+
+def test_fit_in_the_lowest_minimum_stays_there(from_either_side: list[Fit]) -> None:
+    lowest = shaken(from_either_side[0])
+    assert shaken(lowest) is lowest
