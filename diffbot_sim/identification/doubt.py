@@ -16,6 +16,7 @@ from diffbot_sim.identification.guards import BLOCK_LEVEL
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.selection import Selection
+from diffbot_sim.identification.shaking import shaken
 from diffbot_sim.identification.stretches import Stretch
 from diffbot_sim.identification.structure import dependences, describe, find_dependences
 from diffbot_sim.identification.trials import Trial
@@ -89,7 +90,7 @@ def _worth_without_luck(trial: Trial) -> float:
     """
     if trial.fit is None or trial.evidence.delta_bic < SUSPICIOUS:
         return trial.evidence.delta_bic
-    alone = reduce(trial.fit, trial.kind.name)
+    alone = shaken(reduce(trial.fit, trial.kind.name))
     return min(trial.evidence.delta_bic, delta_bic(alone, trial.fit))
 
 

@@ -43,7 +43,7 @@ class Evidence:
     @property
     def p_elsewhere(self) -> float:
         """The chance of what it predicts of data that it was not fitted to."""
-        return best_look(*(p for p in (self.p_held_out, self.p_folds) if not isnan(p)))
+        return best_look(*self._elsewhere)
 
     @property
     def is_refuted(self) -> bool:
@@ -53,7 +53,11 @@ class Evidence:
     @property
     def is_contradicted(self) -> bool:
         """Whether held-out data and other parts of the runs would rather do without it."""
-        return self.p_held_out >= AGAINST and self.p_folds >= AGAINST
+        return min(self._elsewhere) >= AGAINST
+
+    @property
+    def _elsewhere(self) -> list[float]:
+        return [p for p in (self.p_held_out, self.p_folds) if not isnan(p)]
 
     def of_best(self, looks: int) -> 'Evidence':
         """Return the evidence for a structure that was the best of so many."""
