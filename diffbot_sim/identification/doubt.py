@@ -13,6 +13,7 @@ from diffbot_sim.identification.dependence import Dependence, realised, worth_of
 from diffbot_sim.identification.evidence import delta_bic
 from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.guards import BLOCK_LEVEL
+from diffbot_sim.identification.moments import pushed
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.screening import Screen
 from diffbot_sim.identification.selection import Selection
@@ -55,7 +56,7 @@ def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection,
             return _without(selection, _weakest(selection)[1], describe(better, final), held_out)
     found = find_dependences(Screen(final), held_out)
     if not found:
-        return _suspicion(selection, held_out)
+        return _pushed(*_suspicion(selection, held_out))
     for kind, left in product(final.space.kinds, found):
         rest = selection.without[kind.name]
         whole = _free_form_of(rest, final, left)
@@ -81,6 +82,13 @@ def _suspicion(
     if WORTHIER * worth > suspected:
         return selection, left
     return _without(selection, weakest, left, held_out)
+
+
+def _pushed(selection: Selection, left: Structure | None) -> tuple[Selection, Structure | None]:
+    """Ask moments of what nothing else is said of; beside a name they may be its own misses."""
+    if left is not None or selection.final.space.kinds:
+        return selection, left
+    return selection, pushed(Screen(selection.final))
 
 
 def _worth_without_luck(trial: Trial) -> float:

@@ -70,6 +70,7 @@ STRUCTURE_LABELS = {
     'past_force': 'age of the command [s]',
     'force_over_time': 'time [s]',
     'friction_over_time': 'time [s]',
+    'time_of_push': 'time [s]',
     'friction_over_heading': 'heading [°]',
     'hill_x': 'x [m]',
     'hill_y': 'y [m]',

@@ -1,0 +1,152 @@
+"""Moments at which something pushed the robot: no law of what the robot does tells them."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from scipy import stats
+
+from diffbot_sim.identification.fitting import Fit
+from diffbot_sim.identification.guards import is_chance
+from diffbot_sim.identification.predictor import predict
+from diffbot_sim.identification.result import Structure
+from diffbot_sim.identification.robust import scale_of
+from diffbot_sim.identification.screening import Screen
+from diffbot_sim.identification.views import View, views
+from diffbot_sim.records import Array
+
+# How long a push is looked for [s]: a hand, a gust, a kerb; how far from anything unsteady its
+# middle lies.
+WINDOW, CLEAR = 0.5, 0.75
+# One push is an accident; a model lacks what comes back.
+FEWEST = 2
+# No error counts for more than so many deviations: an outlier is no push.
+MOST_OF_SAMPLE = 5.0
+# A wheel slower than this share of its usual highest speed may stick or start, which is no push.
+SLOW, USUALLY = 0.02, 0.95
+# Odometry that misses so many intervals leaves the prediction alone.
+HOLE = 3.0
+AXES, UNITS = ('v', 'omega'), ('N', 'N·m')
+
+
+class Moment(NamedTuple):
+    """A window in which errors have one sign: middle [s] in a stretch; axis 0 for v, 1 for ω."""
+
+    stretch: int
+    time: float
+    axis: int
+    p_value: float
+
+
+@dataclass(frozen=True)
+class _Windows:
+    """Middles [s] of steady windows, shape (m,); sums of errors over their deviation, (m, 2)."""
+
+    time: Array
+    sums: Array
+
+
+def pushed(screen: Screen) -> Structure | None:
+    """Return the force of pushes at a few moments, if the errors of a fit show some."""
+    moments = find_moments(screen.fit)
+    return _described(screen, moments) if len(moments) >= FEWEST else None
+
+
+def find_moments(fit: Fit) -> list[Moment]:
+    """Return moments at which the errors of a fit add up to more than chance, the surest first."""
+    each = [_windows(view) for view in views(fit, fit.stretches)]
+    sums = np.concatenate([windows.sums for windows in each])
+    if len(sums) == 0:
+        return []
+    # Errors that depend on the last ones add up to more, or less, than independent ones.
+    deviation = np.maximum(scale_of(sums), 1.0)
+    found = list[Moment]()
+    for moment in sorted(_all(each, deviation), key=lambda m: m.p_value):
+        if is_chance(moment.p_value, sums.size):
+            break
+        if not any(_is_near(moment, other) for other in found):
+            found.append(moment)
+    return found
+
+
+def _all(each: list[_Windows], deviation: Array) -> Iterator[Moment]:
+    for index, windows in enumerate(each):
+        chances = 2.0 * stats.norm.sf(np.abs(windows.sums) / deviation)
+        for (row, axis), chance in np.ndenumerate(chances):
+            yield Moment(index, float(windows.time[row]), axis, float(chance))
+
+
+def _is_near(one: Moment, other: Moment) -> bool:
+    return one.stretch == other.stretch and abs(one.time - other.time) <= 2.0 * WINDOW
+
+
+def _windows(view: View) -> _Windows:
+    """Add up errors in windows, one for each sample, where nothing near is unsteady."""
+    time, used = view.stretch.time, view.stretch.used > 0
+    errors = np.clip(view.innovation / view.fit.sigma, -MOST_OF_SAMPLE, MOST_OF_SAMPLE)
+
+    def within(values: Array, margin: float) -> Array:
+        total = np.concatenate([np.zeros((1, *values.shape[1:])), np.cumsum(values, axis=0)])
+        first = np.searchsorted(time, time - margin, 'left')
+        end = np.searchsorted(time, time + margin, 'right')
+        return np.asarray(total[end] - total[first])
+
+    count = within(used.astype(float), 0.5 * WINDOW)
+    full = count >= 0.5 * WINDOW / view.stretch.interval
+    steady = full & (within(_is_unsteady(view).astype(float), CLEAR) == 0.0)
+    sums = within(errors, 0.5 * WINDOW)[steady] / np.sqrt(count[steady, None])
+    return _Windows(time[steady], sums)
+
+
+def _is_unsteady(view: View) -> Array:
+    """Say of each sample whether a wheel may stick there, or odometry was missing."""
+    speed, time = np.abs(view.wheel_speed), view.stretch.time
+    slow = np.any(speed <= SLOW * np.quantile(speed, USUALLY, axis=0), axis=1)
+    missing = np.diff(time, prepend=time[0]) > HOLE * view.stretch.interval
+    return np.asarray(slow | missing)
+
+
+def _described(screen: Screen, moments: list[Moment]) -> Structure:
+    """Tell moments with their forces, and the force over time where the surest one is."""
+    surest, stretches = moments[0], screen.fit.stretches
+    time = stretches[surest.stretch].time
+    knots = np.arange(time[0] + WINDOW, time[-1] - WINDOW, 0.5 * WINDOW)
+    force, error = _force(screen, surest, knots)
+    felt = np.isfinite(error)
+    said = ', '.join(_said(screen, moment, len(stretches) > 1) for moment in sorted(moments))
+    return Structure(
+        description=(
+            f'pushes at {said}, which depend on nothing that the robot does and '
+            'that no effect of the library accounts for'
+        ),
+        axis=AXES[surest.axis],
+        variable='time_of_push',
+        strength=float(np.sqrt(np.mean(force[felt] ** 2))),
+        p_value=surest.p_value,
+        knots=knots[felt],
+        force=force[felt],
+        force_error=error[felt],
+    )
+
+
+def _said(screen: Screen, moment: Moment, among_several: bool) -> str:
+    (force,), _ = _force(screen, moment, np.array([moment.time]))
+    whose = f' of {screen.fit.stretches[moment.stretch].run.name}' if among_several else ''
+    return f'{moment.time:.1f} s{whose} ({force:.3g} {UNITS[moment.axis]})'
+
+
+def _force(screen: Screen, like: Moment, middles: Array) -> tuple[Array, Array]:
+    """Return forces in windows that explain the errors best, and their standard errors.
+
+    Along the axis of a moment, in its stretch; an infinite error where no force is felt.
+    """
+    fit, stretch = screen.fit, screen.fit.stretches[like.stretch]
+    acting = np.zeros((len(stretch.time), 2, len(middles)))
+    acting[:, like.axis] = np.abs(stretch.time[:, None] - middles) <= 0.5 * WINDOW
+    slopes = screen.responses[like.stretch].errors(acting) / fit.sigma[:, None]
+    slopes *= stretch.used[:, None, None]
+    errors = predict(fit.model, stretch, fit.gains).innovation / fit.sigma
+    known = np.sum(slopes**2, axis=(0, 1))
+    with np.errstate(divide='ignore', invalid='ignore'):
+        return np.nan_to_num(-np.einsum('kaq,ka->q', slopes, errors) / known), known**-0.5

@@ -1,0 +1,70 @@
+"""Pushes at a few moments, told from rough floors and from what only looks like them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
+from diffbot_sim.identification.coordinates import Space
+from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
+from diffbot_sim.identification.moments import find_moments, pushed
+from diffbot_sim.identification.screening import Screen
+from diffbot_sim.identification.stretches import split
+from diffbot_sim.physics import Model
+from diffbot_sim.records import Run
+
+SMOOTH, ROUGH = Surroundings(), Surroundings(roughness=0.3)
+DRIVE = random_forces(5, 80.0, 2.0, 14.0)
+
+
+def rolling(around: Surroundings, *pushes: tuple[float, float]) -> Run:
+    """Return a drive that hardly stops, pushed along at times [s] by forces [N] for 0.5 s."""
+    force = DRIVE.force.copy()
+    for time, push in pushes:
+        force[(DRIVE.time >= time) & (DRIVE.time < time + 0.5)] += 0.5 * push
+    return replace(rehearse(Model(), replace(DRIVE, force=force), around, 5), commands=DRIVE)
+
+
+def fitted(run: Run) -> Fit:
+    """Return a fit of the plain model."""
+    learned, _ = split([run])
+    space = Space(Model(), ())
+    return fit_prediction(space, learned, space.prior(), FIRST_GAINS)
+
+
+@pytest.mark.parametrize('around', [SMOOTH, ROUGH])
+def test_pushes_are_told_with_their_moments_and_signs(around: Surroundings) -> None:
+    left = pushed(Screen(fitted(rolling(around, (21.0, 12.0), (43.0, -12.0)))))
+    assert left is not None
+    assert left.variable == 'time_of_push'
+    first, second = left.force[np.searchsorted(left.knots, (21.1, 43.1))]
+    assert first > 1.0
+    assert second < -1.0
+
+
+@pytest.mark.parametrize('around', [SMOOTH, ROUGH])
+def test_nobody_pushes_a_robot_that_is_left_alone(around: Surroundings) -> None:
+    assert find_moments(fitted(rolling(around))) == []
+
+
+def test_one_push_is_an_accident_that_no_model_lacks() -> None:
+    fit = fitted(rolling(SMOOTH, (21.0, 12.0)))
+    assert len(find_moments(fit)) == 1
+    assert pushed(Screen(fit)) is None
+
+
+def test_what_odometry_missed_is_no_push_where_it_comes_back() -> None:
+    run = rolling(ROUGH, (20.4, 6.0), (40.4, 6.0))
+    seen = run.odometry
+    kept = np.abs(seen.time % 20.0 - 10.0) < 9.0
+    holes = replace(seen, time=seen.time[kept], twist=seen.twist[kept], pose=seen.pose[kept])
+    assert find_moments(fitted(replace(run, odometry=holes))) == []
+
+
+def test_outlier_is_no_push() -> None:
+    run = rolling(SMOOTH)
+    twist = run.odometry.twist.copy()
+    twist[[900, 1700, 2300]] += 1.0
+    outliers = replace(run.odometry, twist=twist)
+    assert find_moments(fitted(replace(run, odometry=outliers))) == []
