@@ -100,8 +100,8 @@ def _strongest(
     """Return the orders in a band whose waves are strongest in the errors, if they stand out.
 
     spacing: of a fine spectrum; teeth: harmonics that are taken together; level: how seldom noise
-    may be as strong. Errors that depend on
-    the angle or on time anyhow, not in waves, have as much power all around.
+    may be as strong. Errors that depend on the angle or on time anyhow, not in waves, have as much
+    power all around.
     """
     step = spacing / teeth
     first, end = ceil(band[0] / step), ceil(band[1] / step)
