@@ -153,6 +153,10 @@ def _repeated_push(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'knock': force, 'knock_time': 0.4, 'knock_period': 2.0 + 3.0 * c.share}
 
 
+def _shoves(make: Make, size: float, c: Chance) -> dict[str, float]:
+    return {'shove': 4.0 * size * c.sign * make.plant.coulomb, 'shove_first': 5.0 + 4.0 * c.share}
+
+
 def _coarse_force(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'coarse': 0.1 * size * make.push}
 
@@ -186,6 +190,7 @@ FOREIGN: dict[str, Law] = {
     'slip_loss': _slip_loss,
     'sway': _sway,
     'repeated_push': _repeated_push,
+    'shoves': _shoves,
     'coarse_force': _coarse_force,
     'settling_stiction': _settling_stiction,
 }

@@ -1,6 +1,6 @@
 """Forces of the peer plant: from commands to wheels, on the body, and the limits of friction."""
 
-from math import copysign, cos, exp, log, pi, sin
+from math import copysign, cos, exp, floor, log, pi, sin
 
 from numba import njit
 from peer_plant import Plant
@@ -8,6 +8,8 @@ from peer_plant import Plant
 GRAVITY = 9.81
 # A wheel that rests for less than this hardly settles [s].
 SETTLES = 0.5
+# How long a shove lasts [s], and how many times as late the next one comes.
+SHOVE, LATER = 0.8, 1.6
 
 
 @njit(cache=True)
@@ -38,6 +40,10 @@ def body_force(p: Plant, time: float, mass: float, v: float, omega: float, yaw: 
     force += p.sway * sin(2.0 * pi * p.sway_rate * time)
     if time % p.knock_period < p.knock_time:
         force += p.knock
+    if p.shove != 0.0 and time >= p.shove_first:
+        count = floor(log(time / p.shove_first) / log(LATER))
+        if time - p.shove_first * LATER**count < SHOVE:
+            force += p.shove * (-1.0) ** count
     if p.bump != 0.0 and v != 0.0:
         near = (abs(v) - p.bump_speed) / p.bump_width
         force -= copysign(p.bump * exp(-(near**2)), v)

@@ -86,6 +86,9 @@ class Plant(NamedTuple):
     knock: float = 0.0
     knock_time: float = 0.0
     knock_period: float = 1.0
+    # A force [N] at shove_first [s] and later, there and back in turn: a hand.
+    shove: float = 0.0
+    shove_first: float = 1.0
     # Steps in which the force comes [N].
     coarse: float = 0.0
     # Dry friction of a wheel at rest [N]: settling ln(1 + rest / SETTLES) more.

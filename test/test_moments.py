@@ -48,10 +48,11 @@ def test_nobody_pushes_a_robot_that_is_left_alone(around: Surroundings) -> None:
     assert find_moments(fitted(rolling(around))) == []
 
 
-def test_one_push_is_an_accident_that_no_model_lacks() -> None:
-    fit = fitted(rolling(SMOOTH, (21.0, 12.0)))
-    assert len(find_moments(fit)) == 1
-    assert pushed(Screen(fit)) is None
+def test_one_push_must_be_as_sure_as_two() -> None:
+    weak, strong = (fitted(rolling(SMOOTH, (21.0, force))) for force in (0.1, 12.0))
+    assert len(find_moments(weak)) == len(find_moments(strong)) == 1
+    assert pushed(Screen(weak)) is None
+    assert pushed(Screen(strong)) is not None
 
 
 def test_what_odometry_missed_is_no_push_where_it_comes_back() -> None:

@@ -76,6 +76,13 @@ def test_push_acts_at_the_start_of_each_period():
     assert run.odometry.twist[[60, 190], 0] == pytest.approx([gained, 2.0 * gained], rel=1e-3)
 
 
+def test_shoves_come_later_and_later_there_and_back():
+    run = driven(BARE._replace(shove=5.0, shove_first=1.5), 0.0, 0.0)
+    gained = 5.0 / 10.0 * 0.8
+    at = np.searchsorted(run.odometry.time, (1.45, 2.35, 3.3))
+    assert run.odometry.twist[at, 0] == pytest.approx([0.0, gained, 0.0], abs=1e-2)
+
+
 def test_wheel_that_has_settled_needs_more_to_break_away():
     plant = BARE._replace(static=1.5, coulomb=1.5, settling=0.5)
     force = np.array([1.7, 1.7])

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.fitting import Fit
-from diffbot_sim.identification.guards import is_chance
+from diffbot_sim.identification.guards import LIKELIHOOD_LEVEL
 from diffbot_sim.identification.predictor import predict
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.robust import scale_of
@@ -19,8 +19,8 @@ from diffbot_sim.records import Array
 # How long a push is looked for [s]: a hand, a gust, a kerb; how far from anything unsteady its
 # middle lies.
 WINDOW, CLEAR = 0.5, 0.75
-# One push is an accident; a model lacks what comes back.
-FEWEST = 2
+# One push may be an accident: it must be as sure as two that are beyond chance.
+SURE = LIKELIHOOD_LEVEL**2
 # No error counts for more than so many deviations: an outlier is no push.
 MOST_OF_SAMPLE = 5.0
 # A wheel slower than this share of its usual highest speed may stick or start, which is no push.
@@ -31,7 +31,10 @@ AXES, UNITS = ('v', 'omega'), ('N', 'N·m')
 
 
 class Moment(NamedTuple):
-    """A window in which errors have one sign: middle [s] in a stretch; axis 0 for v, 1 for ω."""
+    """A window in which errors have one sign: middle [s] in a stretch; axis 0 for v, 1 for ω.
+
+    p_value: the chance of such a one among all windows.
+    """
 
     stretch: int
     time: float
@@ -50,7 +53,8 @@ class _Windows:
 def pushed(screen: Screen) -> Structure | None:
     """Return the force of pushes at a few moments, if the errors of a fit show some."""
     moments = find_moments(screen.fit)
-    return _described(screen, moments) if len(moments) >= FEWEST else None
+    sure = len(moments) > 1 or any(moment.p_value <= SURE for moment in moments)
+    return _described(screen, moments) if sure else None
 
 
 def find_moments(fit: Fit) -> list[Moment]:
@@ -62,17 +66,17 @@ def find_moments(fit: Fit) -> list[Moment]:
     # Errors that depend on the last ones add up to more, or less, than independent ones.
     deviation = np.maximum(scale_of(sums), 1.0)
     found = list[Moment]()
-    for moment in sorted(_all(each, deviation), key=lambda m: m.p_value):
-        if is_chance(moment.p_value, sums.size):
+    for moment in sorted(_all(each, deviation, sums.size), key=lambda m: m.p_value):
+        if moment.p_value > LIKELIHOOD_LEVEL:
             break
         if not any(_is_near(moment, other) for other in found):
             found.append(moment)
     return found
 
 
-def _all(each: list[_Windows], deviation: Array) -> Iterator[Moment]:
+def _all(each: list[_Windows], deviation: Array, tried: int) -> Iterator[Moment]:
     for index, windows in enumerate(each):
-        chances = 2.0 * stats.norm.sf(np.abs(windows.sums) / deviation)
+        chances = tried * 2.0 * stats.norm.sf(np.abs(windows.sums) / deviation)
         for (row, axis), chance in np.ndenumerate(chances):
             yield Moment(index, float(windows.time[row]), axis, float(chance))
 
@@ -114,12 +118,10 @@ def _described(screen: Screen, moments: list[Moment]) -> Structure:
     knots = np.arange(time[0] + WINDOW, time[-1] - WINDOW, 0.5 * WINDOW)
     force, error = _force(screen, surest, knots)
     felt = np.isfinite(error)
+    what = 'pushes' if len(moments) > 1 else 'a push'
     said = ', '.join(_said(screen, moment, len(stretches) > 1) for moment in sorted(moments))
     return Structure(
-        description=(
-            f'pushes at {said}, which depend on nothing that the robot does and '
-            'that no effect of the library accounts for'
-        ),
+        description=f'{what} at {said} that no effect of the library accounts for',
         axis=AXES[surest.axis],
         variable='time_of_push',
         strength=float(np.sqrt(np.mean(force[felt] ** 2))),
