@@ -27,6 +27,10 @@ MOST_OF_SAMPLE = 5.0
 SLOW, USUALLY = 0.02, 0.95
 # Odometry that misses so many intervals leaves the prediction alone.
 HOLE = 3.0
+# Where a wheel sticks, a force is so many times less sure than usual, and not shown.
+FELT = 4.0
+# So many windows at once: each takes two numbers for every sample of a stretch.
+AT_ONCE = 50
 AXES, UNITS = ('v', 'omega'), ('N', 'N·m')
 
 
@@ -116,8 +120,9 @@ def _described(screen: Screen, moments: list[Moment]) -> Structure:
     surest, stretches = moments[0], screen.fit.stretches
     time = stretches[surest.stretch].time
     knots = np.arange(time[0] + WINDOW, time[-1] - WINDOW, 0.5 * WINDOW)
-    force, error = _force(screen, surest, knots)
-    felt = np.isfinite(error)
+    parts = np.array_split(knots, 1 + len(knots) // AT_ONCE)
+    force, error = np.hstack([_force(screen, surest, part) for part in parts])
+    felt = error <= FELT * np.median(error[np.isfinite(error)])
     what = 'pushes' if len(moments) > 1 else 'a push'
     said = ', '.join(_said(screen, moment, len(stretches) > 1) for moment in sorted(moments))
     return Structure(
