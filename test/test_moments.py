@@ -4,17 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from fits import ROUGH, SMOOTH, acted_otherwise, fitted
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
-from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
+from diffbot_sim.control.rehearsal import Surroundings, random_forces
+from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.moments import find_moments, pushed
-from diffbot_sim.identification.screening import Screen
-from diffbot_sim.identification.stretches import split
-from diffbot_sim.physics import Model
 from diffbot_sim.records import Run
 
-SMOOTH, ROUGH = Surroundings(), Surroundings(roughness=0.3)
 DRIVE = random_forces(5, 80.0, 2.0, 14.0)
 
 
@@ -23,19 +19,18 @@ def rolling(around: Surroundings, *pushes: tuple[float, float]) -> Run:
     force = DRIVE.force.copy()
     for time, push in pushes:
         force[(DRIVE.time >= time) & (DRIVE.time < time + 0.5)] += 0.5 * push
-    return replace(rehearse(Model(), replace(DRIVE, force=force), around, 5), commands=DRIVE)
+    return acted_otherwise(DRIVE, force, around, 5)
 
 
-def fitted(run: Run) -> Fit:
+def fit_of(run: Run) -> Fit:
     """Return a fit of the plain model."""
-    learned, _ = split([run])
-    space = Space(Model(), ())
-    return fit_prediction(space, learned, space.prior(), FIRST_GAINS)
+    fit, _ = fitted(run)
+    return fit
 
 
 @pytest.mark.parametrize('around', [SMOOTH, ROUGH])
 def test_pushes_are_told_with_their_moments_and_signs(around: Surroundings) -> None:
-    left = pushed(Screen(fitted(rolling(around, (21.0, 12.0), (43.0, -12.0)))))
+    left = pushed(fit_of(rolling(around, (21.0, 12.0), (43.0, -12.0))))
     assert left is not None
     assert left.variable == 'time_of_push'
     first, second = left.force[np.searchsorted(left.knots, (21.1, 43.1))]
@@ -45,14 +40,14 @@ def test_pushes_are_told_with_their_moments_and_signs(around: Surroundings) -> N
 
 @pytest.mark.parametrize('around', [SMOOTH, ROUGH])
 def test_nobody_pushes_a_robot_that_is_left_alone(around: Surroundings) -> None:
-    assert find_moments(fitted(rolling(around))) == []
+    assert find_moments(fit_of(rolling(around))) == []
 
 
 def test_one_push_must_be_as_sure_as_two() -> None:
-    weak, strong = (fitted(rolling(SMOOTH, (21.0, force))) for force in (0.1, 12.0))
+    weak, strong = (fit_of(rolling(SMOOTH, (21.0, force))) for force in (0.1, 12.0))
     assert len(find_moments(weak)) == len(find_moments(strong)) == 1
-    assert pushed(Screen(weak)) is None
-    assert pushed(Screen(strong)) is not None
+    assert pushed(weak) is None
+    assert pushed(strong) is not None
 
 
 def test_what_odometry_missed_is_no_push_where_it_comes_back() -> None:
@@ -60,7 +55,7 @@ def test_what_odometry_missed_is_no_push_where_it_comes_back() -> None:
     seen = run.odometry
     kept = np.abs(seen.time % 20.0 - 10.0) < 9.0
     holes = replace(seen, time=seen.time[kept], twist=seen.twist[kept], pose=seen.pose[kept])
-    assert find_moments(fitted(replace(run, odometry=holes))) == []
+    assert find_moments(fit_of(replace(run, odometry=holes))) == []
 
 
 def test_outlier_is_no_push() -> None:
@@ -68,4 +63,4 @@ def test_outlier_is_no_push() -> None:
     twist = run.odometry.twist.copy()
     twist[[900, 1700, 2300]] += 1.0
     outliers = replace(run.odometry, twist=twist)
-    assert find_moments(fitted(replace(run, odometry=outliers))) == []
+    assert find_moments(fit_of(replace(run, odometry=outliers))) == []

@@ -4,39 +4,22 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from fits import ROUGH, SMOOTH, acted_otherwise, fitted
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
-from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.dependence import Dependence, against_the_model, realised
-from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
 from diffbot_sim.identification.screening import Screen
-from diffbot_sim.identification.stretches import Stretch, split
 from diffbot_sim.identification.structure import dependences, find_dependences
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
-from diffbot_sim.records import Array, Commands, Run
-
-SMOOTH, ROUGH = Surroundings(), Surroundings(roughness=0.3)
-
-
-def fitted(run: Run) -> tuple[Fit, tuple[Stretch, ...]]:
-    """Return a fit of the plain model to a run, and the held-out rest."""
-    learned, held_out = split([run])
-    space = Space(Model(), ())
-    return fit_prediction(space, learned, space.prior(), FIRST_GAINS), held_out
+from diffbot_sim.records import Commands, Run
 
 
 def left_by(run: Run) -> list[Dependence]:
     """Return what a fit of the plain model leaves of a run."""
     fit, held_out = fitted(run)
     return find_dependences(Screen(fit), held_out)
-
-
-def acted_otherwise(commands: Commands, force: Array, around: Surroundings = SMOOTH) -> Run:
-    """Return what is recorded where the wheels get another force than was commanded."""
-    run = rehearse(Model(), replace(commands, force=force), around, 3)
-    return replace(run, commands=commands)
 
 
 def test_rough_floor_alone_leaves_nothing_to_be_told() -> None:

@@ -88,7 +88,7 @@ def _pushed(selection: Selection, left: Structure | None) -> tuple[Selection, St
     """Ask moments of what nothing else is said of; beside a name they may be its own misses."""
     if left is not None or selection.final.space.kinds:
         return selection, left
-    return selection, pushed(Screen(selection.final))
+    return selection, pushed(selection.final)
 
 
 def _worth_without_luck(trial: Trial) -> float:

@@ -9,10 +9,11 @@ from scipy import stats
 
 from diffbot_sim.identification.fitting import Fit
 from diffbot_sim.identification.guards import LIKELIHOOD_LEVEL
-from diffbot_sim.identification.predictor import predict
+from diffbot_sim.identification.response import Response, responses
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.robust import scale_of
-from diffbot_sim.identification.screening import Screen
+from diffbot_sim.identification.structure import FORCES
+from diffbot_sim.identification.variables import BODY
 from diffbot_sim.identification.views import View, views
 from diffbot_sim.records import Array
 
@@ -31,7 +32,6 @@ HOLE = 3.0
 FELT = 4.0
 # So many windows at once: each takes two numbers for every sample of a stretch.
 AT_ONCE = 50
-AXES, UNITS = ('v', 'omega'), ('N', 'N·m')
 
 
 class Moment(NamedTuple):
@@ -54,11 +54,11 @@ class _Windows:
     sums: Array
 
 
-def pushed(screen: Screen) -> Structure | None:
+def pushed(fit: Fit) -> Structure | None:
     """Return the force of pushes at a few moments, if the errors of a fit show some."""
-    moments = find_moments(screen.fit)
+    moments = find_moments(fit)
     sure = len(moments) > 1 or any(moment.p_value <= SURE for moment in moments)
-    return _described(screen, moments) if sure else None
+    return _described(fit, moments) if sure else None
 
 
 def find_moments(fit: Fit) -> list[Moment]:
@@ -70,19 +70,17 @@ def find_moments(fit: Fit) -> list[Moment]:
     # Errors that depend on the last ones add up to more, or less, than independent ones.
     deviation = np.maximum(scale_of(sums), 1.0)
     found = list[Moment]()
-    for moment in sorted(_all(each, deviation, sums.size), key=lambda m: m.p_value):
-        if moment.p_value > LIKELIHOOD_LEVEL:
-            break
+    for moment in sorted(_beyond_chance(each, deviation, sums.size), key=lambda m: m.p_value):
         if not any(_is_near(moment, other) for other in found):
             found.append(moment)
     return found
 
 
-def _all(each: list[_Windows], deviation: Array, tried: int) -> Iterator[Moment]:
+def _beyond_chance(each: list[_Windows], deviation: Array, tried: int) -> Iterator[Moment]:
     for index, windows in enumerate(each):
         chances = tried * 2.0 * stats.norm.sf(np.abs(windows.sums) / deviation)
-        for (row, axis), chance in np.ndenumerate(chances):
-            yield Moment(index, float(windows.time[row]), axis, float(chance))
+        for row, axis in np.argwhere(chances <= LIKELIHOOD_LEVEL).tolist():
+            yield Moment(index, float(windows.time[row]), axis, float(chances[row, axis]))
 
 
 def _is_near(one: Moment, other: Moment) -> bool:
@@ -115,45 +113,57 @@ def _is_unsteady(view: View) -> Array:
     return np.asarray(slow | missing)
 
 
-def _described(screen: Screen, moments: list[Moment]) -> Structure:
+def _described(fit: Fit, moments: list[Moment]) -> Structure:
     """Tell moments with their forces, and the force over time where the surest one is."""
-    surest, stretches = moments[0], screen.fit.stretches
-    time = stretches[surest.stretch].time
-    knots = np.arange(time[0] + WINDOW, time[-1] - WINDOW, 0.5 * WINDOW)
-    parts = np.array_split(knots, 1 + len(knots) // AT_ONCE)
-    force, error = np.hstack([_force(screen, surest, part) for part in parts])
-    felt = error <= FELT * np.median(error[np.isfinite(error)])
+    felt = list(zip(views(fit, fit.stretches), responses(fit), strict=True))
+    said = ', '.join(_said(*felt[m.stretch], m, _whose(fit, m)) for m in sorted(moments))
+    surest = moments[0]
+    view, response = felt[surest.stretch]
+    knots, force, error = _over_time(view, response, surest.axis)
     what = 'pushes' if len(moments) > 1 else 'a push'
-    said = ', '.join(_said(screen, moment, len(stretches) > 1) for moment in sorted(moments))
     return Structure(
         description=f'{what} at {said} that no effect of the library accounts for',
-        axis=AXES[surest.axis],
+        axis=BODY[surest.axis],
         variable='time_of_push',
-        strength=float(np.sqrt(np.mean(force[felt] ** 2))),
+        strength=float(np.sqrt(np.mean(force**2))),
         p_value=surest.p_value,
-        knots=knots[felt],
-        force=force[felt],
-        force_error=error[felt],
+        knots=knots,
+        force=force,
+        force_error=error,
     )
 
 
-def _said(screen: Screen, moment: Moment, among_several: bool) -> str:
-    (force,), _ = _force(screen, moment, np.array([moment.time]))
-    whose = f' of {screen.fit.stretches[moment.stretch].run.name}' if among_several else ''
-    return f'{moment.time:.1f} s{whose} ({force:.3g} {UNITS[moment.axis]})'
+def _said(view: View, response: Response, moment: Moment, whose: str) -> str:
+    (force,), _ = _force(view, response, moment.axis, np.array([moment.time]))
+    _, unit = FORCES[BODY[moment.axis]]
+    return f'{moment.time:.1f} s{whose} ({force:.3g} {unit})'
 
 
-def _force(screen: Screen, like: Moment, middles: Array) -> tuple[Array, Array]:
+def _whose(fit: Fit, moment: Moment) -> str:
+    """Tell the run of a moment where there are several."""
+    return f' of {fit.stretches[moment.stretch].run.name}' if len(fit.stretches) > 1 else ''
+
+
+def _over_time(view: View, response: Response, axis: int) -> tuple[Array, Array, Array]:
+    """Return times of a stretch, the force in a window around each, and its standard error."""
+    time = view.stretch.time
+    knots = np.arange(time[0] + WINDOW, time[-1] - WINDOW, 0.5 * WINDOW)
+    parts = np.array_split(knots, 1 + len(knots) // AT_ONCE)
+    force, error = np.hstack([_force(view, response, axis, part) for part in parts])
+    shown = error <= FELT * np.median(error[np.isfinite(error)])
+    return knots[shown], force[shown], error[shown]
+
+
+def _force(view: View, response: Response, axis: int, middles: Array) -> tuple[Array, Array]:
     """Return forces in windows that explain the errors best, and their standard errors.
 
-    Along the axis of a moment, in its stretch; an infinite error where no force is felt.
+    An infinite error where no force is felt.
     """
-    fit, stretch = screen.fit, screen.fit.stretches[like.stretch]
-    acting = np.zeros((len(stretch.time), 2, len(middles)))
-    acting[:, like.axis] = np.abs(stretch.time[:, None] - middles) <= 0.5 * WINDOW
-    slopes = screen.responses[like.stretch].errors(acting) / fit.sigma[:, None]
-    slopes *= stretch.used[:, None, None]
-    errors = predict(fit.model, stretch, fit.gains).innovation / fit.sigma
+    time, sigma = view.stretch.time, view.fit.sigma
+    acting = np.zeros((len(time), 2, len(middles)))
+    acting[:, axis] = np.abs(time[:, None] - middles) <= 0.5 * WINDOW
+    slopes = response.errors(acting) / sigma[:, None] * view.stretch.used[:, None, None]
     known = np.sum(slopes**2, axis=(0, 1))
     with np.errstate(divide='ignore', invalid='ignore'):
-        return np.nan_to_num(-np.einsum('kaq,ka->q', slopes, errors) / known), known**-0.5
+        force = -np.einsum('kaq,ka->q', slopes, view.innovation / sigma) / known
+        return np.nan_to_num(force), known**-0.5

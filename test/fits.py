@@ -1,0 +1,27 @@
+"""Drives of our own robot, as some force that nobody commanded changed them, and plain fits."""
+
+from dataclasses import replace
+
+from diffbot_sim.control.rehearsal import Surroundings, rehearse
+from diffbot_sim.identification.coordinates import Space
+from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
+from diffbot_sim.identification.stretches import Stretch, split
+from diffbot_sim.physics import Model
+from diffbot_sim.records import Array, Commands, Run
+
+SMOOTH, ROUGH = Surroundings(), Surroundings(roughness=0.3)
+
+
+def fitted(run: Run) -> tuple[Fit, tuple[Stretch, ...]]:
+    """Return a fit of the plain model to a run, and the held-out rest."""
+    learned, held_out = split([run])
+    space = Space(Model(), ())
+    return fit_prediction(space, learned, space.prior(), FIRST_GAINS), held_out
+
+
+def acted_otherwise(
+    commands: Commands, force: Array, around: Surroundings = SMOOTH, seed: int = 3
+) -> Run:
+    """Return what is recorded where the wheels get another force than was commanded."""
+    run = rehearse(Model(), replace(commands, force=force), around, seed)
+    return replace(run, commands=commands)
