@@ -3,8 +3,6 @@
 import io
 import json
 import re
-import shutil
-import subprocess
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -13,6 +11,7 @@ import identification_by_hand as by_hand
 import numpy as np
 import plotly.graph_objects as go
 import pytest
+from browser import browsed, needs_chromium
 from rich.console import Console
 
 from diffbot_sim.identification.result import Estimate, Identification, Timing
@@ -25,7 +24,6 @@ from diffbot_sim.report.page import page_text
 
 Answer = Callable[[], Identification]
 ANSWERS = [by_hand.nothing_missing, by_hand.found, by_hand.unexplained]
-needs_chromium = pytest.mark.skipif(shutil.which('chromium') is None, reason='needs chromium')
 every_verdict = pytest.mark.parametrize('answer', ANSWERS)
 
 
@@ -279,34 +277,18 @@ def test_report_replaces_an_older_one_and_leaves_no_scraps(tmp_path: Path) -> No
     assert json.loads((out / 'report.json').read_text())['verdict'] == 'nothing_missing'
 
 
-def browsed(page: Path) -> str:
-    """Return the page as it stands after a browser has run its scripts."""
-    quiet = ['--disable-background-networking', '--disable-component-update', '--disable-sync']
-    flags = ['--headless', '--no-sandbox', '--disable-gpu', '--hide-scrollbars', *quiet]
-    where = [f'--user-data-dir={page.parent}/profile', '--window-size=1200,9000']
-    what = ['--allow-file-access-from-files', '--virtual-time-budget=30000', '--dump-dom']
-    command = ['chromium', *flags, *where, *what, f'file://{page}']
-    return subprocess.run(command, capture_output=True, text=True, timeout=120, check=True).stdout
-
-
 @needs_chromium
 @pytest.mark.parametrize('width', [390, 1280])
 def test_page_is_no_wider_than_a_phone_or_a_screen(width: int, tmp_path: Path) -> None:
     write_report(one_odd_run(), tmp_path)
-    frame = tmp_path / 'frame.html'
-    frame.write_text(
-        f'<iframe src="report.html" style="border: 0; width: {width}px; height: 8000px" '
-        'onload="setTimeout(() => '
-        '{document.title = contentDocument.documentElement.scrollWidth}, 4000)"></iframe>'
-    )
-    assert f'<title>{width}</title>' in browsed(frame)
+    assert browsed(tmp_path, width, 'dom().documentElement.scrollWidth') == str(width)
 
 
 @needs_chromium
 def test_browser_draws_the_figures(tmp_path: Path) -> None:
     write_report(by_hand.unexplained(), tmp_path)
-    dom = browsed(tmp_path / 'report.html')
-    assert dom.count('class="plot js-plotly-plot"') == 21
-    assert (
-        dom.count('<script type="application/json">') == 3
-    )  # the second run waits until it is chosen
+    waiting = 'dom().querySelectorAll(\'script[type="application/json"]\').length'
+    # The second run waits until it is chosen.
+    assert browsed(tmp_path, 1200, f"drawn + ' drawn, ' + {waiting} + ' waiting'") == (
+        '21 drawn, 3 waiting'
+    )
