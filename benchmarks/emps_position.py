@@ -15,7 +15,7 @@ from emps import DECLARED, GIVEN, MEASURED, TEST, TRAIN, Axis, first_state, read
 from scipy.optimize import least_squares
 
 from diffbot_sim.errors import DiffbotError
-from diffbot_sim.identification.coordinates import Space
+from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.physics import Model, simulate
 from diffbot_sim.physics.effects import library
 from diffbot_sim.physics.embedding import embedded

@@ -11,13 +11,13 @@ from recovery import seed_range
 from recovery_cases import FLOORS, Case
 from recovery_judge import planted_in, recorded
 
-from diffbot_sim.identification.calibration import calibrate
-from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
-from diffbot_sim.identification.predictor import MAX_STEP
-from diffbot_sim.identification.start import restarted
-from diffbot_sim.identification.stretches import split
-from diffbot_sim.identification.uncertainty import estimates
+from diffbot_sim.identification.conclusions.uncertainty import estimates
+from diffbot_sim.identification.fitting.calibration import calibrate
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
+from diffbot_sim.identification.fitting.predictor import MAX_STEP
+from diffbot_sim.identification.recordings.start import restarted
+from diffbot_sim.identification.recordings.stretches import split
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects import laws
 from diffbot_sim.records import Run

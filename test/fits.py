@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 from diffbot_sim.control.rehearsal import Surroundings, rehearse
-from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
-from diffbot_sim.identification.stretches import Stretch, split
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
+from diffbot_sim.identification.recordings.stretches import Stretch, split
 from diffbot_sim.physics import Model
 from diffbot_sim.records import Array, Commands, Run
 

@@ -1,10 +1,10 @@
 """Advice: which drive would show what this one does not."""
 
-from diffbot_sim.identification.advice import advice
-from diffbot_sim.identification.evidence import Evidence
+from diffbot_sim.identification.conclusions.advice import advice
 from diffbot_sim.identification.result import Estimate
-from diffbot_sim.identification.selection import Selection
-from diffbot_sim.identification.trials import CHANCE, UNSEEN, Trial
+from diffbot_sim.identification.selection.evidence import Evidence
+from diffbot_sim.identification.selection.stepwise import Selection
+from diffbot_sim.identification.selection.trials import CHANCE, UNSEEN, Trial
 from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.physics.effects.yaw_friction import YawFriction
 

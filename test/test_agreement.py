@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
-from diffbot_sim.identification.agreement import Estimated as Said
-from diffbot_sim.identification.agreement import agreement, interval_chances
-from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.fitting import Fit
+from diffbot_sim.identification.conclusions.agreement import Estimated as Said
+from diffbot_sim.identification.conclusions.agreement import agreement, interval_chances
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.recordings.stretches import whole
 from diffbot_sim.identification.result import RunCheck
-from diffbot_sim.identification.stretches import whole
 from diffbot_sim.physics import Friction, Model, Robot
 from diffbot_sim.records import Run
 

@@ -7,15 +7,21 @@ from math import nan
 import pytest
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
-from diffbot_sim.identification.bases import bases
-from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.doubt import doubt
-from diffbot_sim.identification.evidence import Evidence
-from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
-from diffbot_sim.identification.guards import lasting
-from diffbot_sim.identification.selection import Selection
-from diffbot_sim.identification.stretches import Stretch, split
-from diffbot_sim.identification.trials import CHANCE, OUTDONE, SUPPORTED, UNCONFIRMED, Trial
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
+from diffbot_sim.identification.free_forms.bases import bases
+from diffbot_sim.identification.recordings.stretches import Stretch, split
+from diffbot_sim.identification.selection.evidence import Evidence
+from diffbot_sim.identification.selection.stepwise import Selection
+from diffbot_sim.identification.selection.trials import (
+    CHANCE,
+    OUTDONE,
+    SUPPORTED,
+    UNCONFIRMED,
+    Trial,
+)
+from diffbot_sim.identification.statistics.guards import lasting
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
-from diffbot_sim.identification.filtering import unfiltered
+from diffbot_sim.identification.fitting.filtering import unfiltered
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 from diffbot_sim.records import Commands, Odometry, Run

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
-from diffbot_sim.identification.floor import by_place, in_time
-from diffbot_sim.identification.stretches import whole
+from diffbot_sim.identification.free_forms.floor import by_place, in_time
+from diffbot_sim.identification.recordings.stretches import whole
 from diffbot_sim.physics import Model
 
 (STRETCH,) = whole([rehearse(Model(), random_forces(2, 60.0, -9.0, 11.0), Surroundings(), 2)])

@@ -25,6 +25,20 @@ FLOORS = {
 FLOOR = {room: floor for floor, rooms in FLOORS.items() for room in rooms}
 OPEN_FLOORS = {1, 6}  # their rooms may import each other
 
+# The floors inside identification, from the ground up.
+STOREYS: list[set[str]] = [
+    {'result'},
+    {'statistics'},
+    {'recordings'},
+    {'fitting'},
+    {'selection'},
+    {'free_forms', 'conclusions'},
+    {'doubt'},
+    {'search'},
+    {'identify'},
+]
+STOREY = {chamber: storey for storey, chambers in enumerate(STOREYS) for chamber in chambers}
+
 PLOTTING = {'report', 'paper'}
 HOME = {
     'rclpy': {'nodes'},
@@ -55,6 +69,11 @@ class Arrow:
 def room_of(module: str) -> str:
     """Name the room of a module; '' for the package itself."""
     return f'{module}..'.split('.')[1]
+
+
+def chamber_of(module: str) -> str:
+    """Name the room inside a room; '' for the package of that room itself."""
+    return f'{module}...'.split('.')[2]
 
 
 def module_of(path: Path) -> str:
@@ -96,6 +115,8 @@ def fault(arrow: Arrow) -> str | None:
 
 def _fault_inside(arrow: Arrow) -> str | None:
     source, target = room_of(arrow.source), room_of(arrow.target)
+    if source == target == 'identification':
+        return _fault_in_identification(arrow)
     if source == target or target not in FLOOR:
         return None
     here, there = FLOOR.get(source, 0), FLOOR[target]
@@ -106,6 +127,13 @@ def _fault_inside(arrow: Arrow) -> str | None:
     if target == 'nodes' and arrow.at_load and arrow.source != f'{PACKAGE}.commands.demo':
         return f'{arrow.source} imports {arrow.target} at load: offline tools need no rclpy'
     return None
+
+
+def _fault_in_identification(arrow: Arrow) -> str | None:
+    source, target = chamber_of(arrow.source), chamber_of(arrow.target)
+    if not source or source == target or STOREY[source] > STOREY[target]:
+        return None
+    return f'{arrow.source} (storey {STOREY[source]}) imports {arrow.target}, which is not below'
 
 
 def _fault_outside(arrow: Arrow) -> str | None:
@@ -124,6 +152,8 @@ def modules() -> list[Path]:
 def test_every_module_has_a_floor() -> None:
     rooms = {room_of(module_of(path)) for path in modules()} - {''}
     assert rooms <= FLOOR.keys()
+    inside = {chamber_of(module_of(path)) for path in modules() if 'identification' in path.parts}
+    assert inside - {''} == STOREY.keys()
 
 
 def test_imports_point_down_and_foreign_packages_stay_home() -> None:
@@ -140,6 +170,7 @@ def test_imports_point_down_and_foreign_packages_stay_home() -> None:
         ('physics.model', 'def late():\n    import diffbot_sim.report', r'floor 2.*floor 5'),
         ('control.pi', 'from diffbot_sim.bags import read', r'floor 3.*floor 3'),
         ('identification.fit', 'from diffbot_sim.bags import read', r'never a bag'),
+        ('identification.fitting.fit', 'from ..doubt import doubt', r'storey 3.*not below'),
         ('commands.simulate', 'from diffbot_sim.nodes import replay', r'need no rclpy'),
         ('commands.simulate', 'from geometry_msgs.msg import Twist', r'belongs in nodes'),
         ('physics.model', 'from scipy import optimize', r'belongs in .*identification'),

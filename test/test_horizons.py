@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
-from diffbot_sim.identification.comparison import compare_models, errors_of
-from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.fitting import Fit
-from diffbot_sim.identification.horizons import horizons, state_at
+from diffbot_sim.identification.conclusions.comparison import compare_models, errors_of
+from diffbot_sim.identification.conclusions.horizons import horizons, state_at
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.recordings.stretches import Stretch, split
 from diffbot_sim.identification.result import Horizon
-from diffbot_sim.identification.stretches import Stretch, split
 from diffbot_sim.physics import Model, Robot
 from diffbot_sim.physics.effects import library
 from diffbot_sim.records import Run

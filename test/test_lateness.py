@@ -7,7 +7,7 @@ import pytest
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
-from diffbot_sim.identification.lateness import lag_behind_pose, timely, timing
+from diffbot_sim.identification.recordings.lateness import lag_behind_pose, timely, timing
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
 from diffbot_sim.records import Odometry, Run

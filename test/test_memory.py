@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from diffbot_sim.identification.memory import fall_of_deviance
+from diffbot_sim.identification.statistics.memory import fall_of_deviance
 
 RANDOM = np.random.default_rng(3)
 WHITE = RANDOM.normal(size=(4000, 2))

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from diffbot_sim.identification.minimisation import Prior, derivatives, minimise
+from diffbot_sim.identification.statistics.minimisation import Prior, derivatives, minimise
 
 FAR = (np.full(2, -9.0), np.full(2, 9.0))
 VAGUE = Prior(np.zeros(2), np.full(2, 1e6))

@@ -7,8 +7,8 @@ import pytest
 from fits import ROUGH, SMOOTH, acted_otherwise, fitted
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces
-from diffbot_sim.identification.fitting import Fit
-from diffbot_sim.identification.moments import find_moments, pushed
+from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.free_forms.moments import find_moments, pushed
 from diffbot_sim.records import Run
 
 DRIVE = random_forces(5, 80.0, 2.0, 14.0)

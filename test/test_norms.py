@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from diffbot_sim.identification.norms import noise_floor, resolution
+from diffbot_sim.identification.statistics.norms import noise_floor, resolution
 
 TIME = np.arange(5000) / 50.0
 TRUE = np.column_stack([np.sin(0.5 * TIME), 2.0 * np.cos(0.3 * TIME)])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from diffbot_sim.identification.periodicity import _power, _strongest
+from diffbot_sim.identification.fitting.periodicity import _power, _strongest
 
 BAND, SPACING = (0.2, 6.0), 0.004
 ORDERS = np.arange(*BAND, SPACING)

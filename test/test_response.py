@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from diffbot_sim.identification.fitting import FIRST_GAINS
-from diffbot_sim.identification.predictor import predict
-from diffbot_sim.identification.response import response
-from diffbot_sim.identification.stretches import Stretch, whole
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS
+from diffbot_sim.identification.fitting.predictor import predict
+from diffbot_sim.identification.fitting.response import response
+from diffbot_sim.identification.recordings.stretches import Stretch, whole
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.physics.effects.yaw_friction import YawFriction

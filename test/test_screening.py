@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
-from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.fitting import FIRST_GAINS, fit_prediction
-from diffbot_sim.identification.screening import Screen
-from diffbot_sim.identification.stretches import whole
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS, fit_prediction
+from diffbot_sim.identification.recordings.stretches import whole
+from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_fade import ActuatorFade
 

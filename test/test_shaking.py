@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
-from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction
-from diffbot_sim.identification.shaking import shaken
-from diffbot_sim.identification.stretches import split
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
+from diffbot_sim.identification.fitting.shaking import shaken
+from diffbot_sim.identification.recordings.stretches import split
 from diffbot_sim.physics import Friction, Model
 
 STATIC = 0.0616

@@ -8,7 +8,7 @@ from scipy.signal import savgol_filter
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
-from diffbot_sim.identification.smoothing import smoothed_over
+from diffbot_sim.identification.recordings.smoothing import smoothed_over
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.records import Odometry, Run

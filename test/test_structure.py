@@ -8,9 +8,13 @@ from fits import ROUGH, SMOOTH, acted_otherwise, fitted
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
-from diffbot_sim.identification.dependence import Dependence, against_the_model, realised
-from diffbot_sim.identification.screening import Screen
-from diffbot_sim.identification.structure import dependences, find_dependences
+from diffbot_sim.identification.free_forms.dependence import (
+    Dependence,
+    against_the_model,
+    realised,
+)
+from diffbot_sim.identification.free_forms.structure import dependences, find_dependences
+from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
 from diffbot_sim.records import Commands, Run

@@ -3,8 +3,8 @@
 from dataclasses import replace
 from math import nan
 
-from diffbot_sim.identification.evidence import Evidence
-from diffbot_sim.identification.trials import SUPPORTED, judge
+from diffbot_sim.identification.selection.evidence import Evidence
+from diffbot_sim.identification.selection.trials import SUPPORTED, judge
 
 CLEAR = Evidence(60.0, 1e-15, 0.004, 0.05, 0.001, 0.001)
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.uncertainty import CHANCE, estimates_at, farthest
+from diffbot_sim.identification.conclusions.uncertainty import CHANCE, estimates_at, farthest
+from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.payload_change import PayloadChange
 

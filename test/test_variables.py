@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
-from diffbot_sim.identification.bases import Basis
-from diffbot_sim.identification.coordinates import Space
-from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, predictions
-from diffbot_sim.identification.forms import PAST, Growth
-from diffbot_sim.identification.starting import START, rest_before, started
-from diffbot_sim.identification.stretches import whole
-from diffbot_sim.identification.variables import VARIABLES
-from diffbot_sim.identification.views import View
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, predictions
+from diffbot_sim.identification.fitting.views import View
+from diffbot_sim.identification.free_forms.bases import Basis
+from diffbot_sim.identification.free_forms.forms import PAST, Growth
+from diffbot_sim.identification.free_forms.starting import START, rest_before, started
+from diffbot_sim.identification.free_forms.variables import VARIABLES
+from diffbot_sim.identification.recordings.stretches import whole
 from diffbot_sim.physics import Model
 from diffbot_sim.report.dependence import structure_label
 

@@ -7,20 +7,20 @@ from math import inf
 
 import numpy as np
 
-from diffbot_sim.identification.bases import again
-from diffbot_sim.identification.candidates import reduce
-from diffbot_sim.identification.dependence import Dependence, realised, worth_of
-from diffbot_sim.identification.evidence import delta_bic
-from diffbot_sim.identification.fitting import Fit
-from diffbot_sim.identification.guards import BLOCK_LEVEL
-from diffbot_sim.identification.moments import pushed
+from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.fitting.shaking import shaken
+from diffbot_sim.identification.free_forms.bases import again
+from diffbot_sim.identification.free_forms.dependence import Dependence, realised, worth_of
+from diffbot_sim.identification.free_forms.moments import pushed
+from diffbot_sim.identification.free_forms.structure import dependences, describe, find_dependences
+from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
-from diffbot_sim.identification.screening import Screen
-from diffbot_sim.identification.selection import Selection
-from diffbot_sim.identification.shaking import shaken
-from diffbot_sim.identification.stretches import Stretch
-from diffbot_sim.identification.structure import dependences, describe, find_dependences
-from diffbot_sim.identification.trials import Trial
+from diffbot_sim.identification.selection.candidates import reduce
+from diffbot_sim.identification.selection.evidence import delta_bic
+from diffbot_sim.identification.selection.screening import Screen
+from diffbot_sim.identification.selection.stepwise import Selection
+from diffbot_sim.identification.selection.trials import Trial
+from diffbot_sim.identification.statistics.guards import BLOCK_LEVEL
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
 

@@ -3,13 +3,14 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 
-from diffbot_sim.identification.advice import advice
-from diffbot_sim.identification.agreement import agreement
-from diffbot_sim.identification.calibration import simulation_error
-from diffbot_sim.identification.comparison import compare_models, errors_of
-from diffbot_sim.identification.empirical import table_of, with_term
-from diffbot_sim.identification.fitting import Fit, fit_simulation
-from diffbot_sim.identification.horizons import horizons
+from diffbot_sim.identification.conclusions.advice import advice
+from diffbot_sim.identification.conclusions.agreement import agreement
+from diffbot_sim.identification.conclusions.comparison import compare_models, errors_of
+from diffbot_sim.identification.conclusions.empirical import table_of, with_term
+from diffbot_sim.identification.conclusions.horizons import horizons
+from diffbot_sim.identification.conclusions.uncertainty import estimates
+from diffbot_sim.identification.fitting.calibration import simulation_error
+from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
     NOTHING_MISSING,
@@ -21,9 +22,8 @@ from diffbot_sim.identification.result import (
     Structure,
 )
 from diffbot_sim.identification.search import Recordings, search
-from diffbot_sim.identification.selection import Selection
-from diffbot_sim.identification.trials import Progress, Trial
-from diffbot_sim.identification.uncertainty import estimates
+from diffbot_sim.identification.selection.stepwise import Selection
+from diffbot_sim.identification.selection.trials import Progress, Trial
 from diffbot_sim.physics.effects import Effect, laws, library
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Run

@@ -5,26 +5,26 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from diffbot_sim.errors import DataError
-from diffbot_sim.identification.calibration import calibrate, simulation_error
-from diffbot_sim.identification.coordinates import Space
 from diffbot_sim.identification.doubt import doubt
-from diffbot_sim.identification.evidence import delta_bic
-from diffbot_sim.identification.filtering import filter_behind, unfiltered
-from diffbot_sim.identification.fitting import FIRST_GAINS, Fit, fit_prediction, fit_simulation
-from diffbot_sim.identification.lateness import (
+from diffbot_sim.identification.fitting.calibration import calibrate, simulation_error
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.filtering import filter_behind, unfiltered
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
+from diffbot_sim.identification.fitting.predictor import MAX_STEP
+from diffbot_sim.identification.fitting.shaking import shaken
+from diffbot_sim.identification.recordings.lateness import (
     lateness_of,
     may_be_of_interval_before,
     of_interval_before,
     timely,
     timing,
 )
-from diffbot_sim.identification.predictor import MAX_STEP
+from diffbot_sim.identification.recordings.start import restarted
+from diffbot_sim.identification.recordings.stretches import Stretch, split, whole
 from diffbot_sim.identification.result import Structure, Timing
-from diffbot_sim.identification.selection import INDISTINGUISHABLE, Selection, select
-from diffbot_sim.identification.shaking import shaken
-from diffbot_sim.identification.start import restarted
-from diffbot_sim.identification.stretches import Stretch, split, whole
-from diffbot_sim.identification.trials import Progress
+from diffbot_sim.identification.selection.evidence import delta_bic
+from diffbot_sim.identification.selection.stepwise import INDISTINGUISHABLE, Selection, select
+from diffbot_sim.identification.selection.trials import Progress
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Run

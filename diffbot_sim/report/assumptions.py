@@ -1,7 +1,9 @@
 """What the answer takes for granted: a reader who knows better knows what not to believe."""
 
-from diffbot_sim.identification import agreement, guards, stretches
+from diffbot_sim.identification.conclusions import agreement
+from diffbot_sim.identification.recordings import stretches
 from diffbot_sim.identification.result import Identification
+from diffbot_sim.identification.statistics import guards
 from diffbot_sim.report.numerals import significant
 from diffbot_sim.report.sentences import split, timings
 

@@ -1,0 +1,1 @@
+"""What follows from a structure that was chosen: errors, intervals, agreement, advice."""

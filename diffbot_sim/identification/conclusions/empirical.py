@@ -1,0 +1,58 @@
+"""The empirical term: what is left without a name, put into the model as a table."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from diffbot_sim.identification.conclusions.comparison import run_free
+from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.result import Structure
+from diffbot_sim.identification.statistics.norms import norm
+from diffbot_sim.physics.effects import empirical_force, empirical_wheel_force
+from diffbot_sim.physics.effects.empirical_force import POINTS, EmpiricalForce
+from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForce
+from diffbot_sim.physics.model import Model
+
+# What the table of a structure runs over, where that is not the structure's own variable.
+TABLE_OF = {'rolling': 'wheel_speed', 'turning': 'omega'}
+# The term is kept when it lowers the held-out error, v and ω together, by this share.
+WORTHWHILE = 0.02
+# An error [m/s, rad/s] as good as none, as of the yaw rate of what cannot turn.
+NOTHING = 1e-9
+
+
+def with_term(fit: Fit, structure: Structure, held_out: Sequence[Stretch]) -> Fit | None:
+    """Return the fit with the structure as a table in its model, if that simulates better.
+
+    Judged by the free-running error on held-out data; None where no table can look at the
+    variable, or where the error does not fall.
+    """
+    table = table_of(structure)
+    if table is None:
+        return None
+    space = replace(fit.space, declared=fit.space.declared.with_effect(table))
+    trial = fit_simulation(space, fit.stretches, fit.u)
+    before, after = (_error(model, held_out) for model in (fit.model, trial.model))
+    return trial if after < before + np.log(1.0 - WORTHWHILE) else None
+
+
+def table_of(structure: Structure) -> EmpiricalForce | EmpiricalWheelForce | None:
+    """Return the curve of a structure as a table that the simulator runs, if there is such one."""
+    low, high = float(structure.knots[0]), float(structure.knots[-1])
+    places = np.linspace(low, high, POINTS)
+    points = [float(f) for f in np.interp(places, structure.knots, structure.force)]
+    axis, variable = structure.axis, TABLE_OF.get(structure.variable, structure.variable)
+    if axis in empirical_force.AXES and variable in empirical_force.VARIABLES:
+        return EmpiricalForce(axis, variable, low, high, *points)
+    if axis in empirical_wheel_force.AXES and variable in empirical_wheel_force.VARIABLES:
+        return EmpiricalWheelForce(axis, variable, low, high, *points)
+    return None
+
+
+def _error(model: Model, held_out: Sequence[Stretch]) -> float:
+    """Return the mean logarithm of the held-out errors of v and ω."""
+    misses = [stretch.twist - run_free(model, stretch).twist for stretch in held_out]
+    both = norm(np.concatenate(misses))
+    return float(np.log(np.maximum([both.v_rmse, both.omega_rmse], NOTHING)).mean())

@@ -1,0 +1,107 @@
+"""Errors over horizons: how far ahead each model can be believed on held-out data.
+
+At regular moments the simulation is restarted and compared with the measurement so many seconds
+later. All models restart from the same speeds: those that one-step prediction with the identified
+model holds to be true, since a single sample is noise. From there each runs on the recorded
+forces alone. Where it ends counts, not the way there: errors grow with the horizon.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.fitting.predictor import MAX_STEP, predict
+from diffbot_sim.identification.recordings.start import WINDOW
+from diffbot_sim.identification.recordings.stretches import Stretch, integral
+from diffbot_sim.identification.result import Errors, Horizon
+from diffbot_sim.identification.statistics.norms import norm
+from diffbot_sim.physics import simulate
+from diffbot_sim.physics.embedding import embedded
+from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.state import State
+from diffbot_sim.records import Array
+
+AHEAD = (1.0, 5.0)
+# Restarts are this far apart [s], or farther, so that so many do for all stretches together.
+SPACING, MOST_RESTARTS = 0.2, 300
+
+
+def horizons(
+    models: Sequence[Model], final: Fit, held_out: Sequence[Stretch], errors: Errors
+) -> tuple[Horizon, ...]:
+    """Return the errors of (declared, recalibrated, with effects) one step to endless seconds.
+
+    final: the identified model with the gains of its noise model. A horizon that no held-out
+    stretch is long enough for is left out.
+    """
+    ahead = [_one_step(models, final, held_out), *_restarted(models, final, held_out)]
+    free = (errors.declared, errors.recalibrated, errors.with_effects)
+    return (*ahead, Horizon('free-running', None, len(held_out), *free))
+
+
+def _one_step(models: Sequence[Model], final: Fit, held_out: Sequence[Stretch]) -> Horizon:
+    """Pool the innovations once the predictor has settled."""
+
+    def innovations(model: Model) -> Array:
+        return np.concatenate(
+            [
+                predict(model, stretch, final.gains).innovation[_settled(stretch)]
+                for stretch in held_out
+            ]
+        )
+
+    pooled = [innovations(model) for model in models]
+    interval = float(np.median([stretch.interval for stretch in held_out]))
+    return Horizon('one step', interval, len(pooled[0]), *map(norm, pooled))
+
+
+def _settled(stretch: Stretch) -> NDArray[np.bool_]:
+    return np.asarray(stretch.time > stretch.time[0] + WINDOW)
+
+
+def _restarted(models: Sequence[Model], final: Fit, held_out: Sequence[Stretch]) -> list[Horizon]:
+    """Restart every model at the same moments; pool the errors at the end of each horizon."""
+    spacing = max(SPACING, sum(s.time[-1] - s.time[0] for s in held_out) / MOST_RESTARTS)
+    errors = np.concatenate([_errors(models, final, s, spacing) for s in held_out])
+    result = []
+    for index, seconds in enumerate(AHEAD):
+        at_end = errors[:, :, index]
+        known = at_end[np.isfinite(at_end).all(axis=(1, 2))]
+        if len(known):
+            pooled = map(norm, known.swapaxes(0, 1))
+            result.append(Horizon(f'{seconds:g} s', seconds, len(known), *pooled))
+    return result
+
+
+def _errors(models: Sequence[Model], final: Fit, stretch: Stretch, spacing: float) -> Array:
+    """Return measured - simulated twist: restarts × models × AHEAD × (v, ω); NaN past the end."""
+    time, wholes = stretch.time, [embedded(model) for model in models]
+    speeds = predict(final.model, stretch, final.gains).twist
+    moments = np.searchsorted(time, np.arange(time[0] + WINDOW, time[-1] - AHEAD[0], spacing))
+    errors = np.full((len(moments), len(models), len(AHEAD), 2), np.nan)
+    for row, moment in enumerate(moments):
+        start = state_at(stretch, speeds, moment)
+        ends = np.searchsorted(time, time[moment] + np.array(AHEAD) - 1e-6)
+        ends = ends[ends < len(time)]
+        for column, model in enumerate(wholes):
+            run = simulate(model, stretch.run.commands, time[[moment, *ends]], start, MAX_STEP)
+            errors[row, column, : len(ends)] = stretch.twist[ends] - run.twist[1:]
+    return errors
+
+
+def state_at(stretch: Stretch, speeds: Array, moment: int) -> State:
+    """Return the state at a sample: speeds as given, place and heading as measured."""
+    time, twist = stretch.time[: moment + 1], stretch.twist[: moment + 1]
+    travelled, turned = (integral(time, rate)[-1] for rate in twist.T)
+    x, y = (0.0, 0.0) if stretch.pose is None else stretch.pose[moment, :2]
+    return State(
+        x=float(x),
+        y=float(y),
+        heading=float(stretch.heading[moment]),
+        v=float(speeds[moment, 0]),
+        omega=float(speeds[moment, 1]),
+        travelled=stretch.start.travelled + float(travelled),
+        turned=stretch.start.turned + float(turned),
+    )

@@ -1,0 +1,128 @@
+"""Intervals: from fits that lack a block of the run each; of moments and periods by profiles."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from scipy import stats
+
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.fit import GAIN_LIMITS, Fit
+from diffbot_sim.identification.result import Estimate
+from diffbot_sim.identification.selection.evidence import BLOCKS, jackknife
+from diffbot_sim.records import Array
+
+LEVEL = 0.95
+STEP = 1e-4
+QUANTILE = float(stats.t.ppf(0.5 + LEVEL / 2, BLOCKS - 1))
+# The first step of a search for where an interval ends, and how it grows.
+FIRST_STEP, GROWTH = 1e-4, 1.4
+# What chance allows the deviance to rise by; the search ends at so many times that.
+CHANCE, BEYOND = QUANTILE**2, 4.0
+HALVINGS = 5
+# Steps by which all other coordinates follow one along its profile.
+ADAPTATIONS = 3
+# Coordinates are of order one; fits end a little inside their bounds.
+NEAR_BOUND = 1e-3
+
+
+def estimates(fit: Fit) -> dict[str, Estimate]:
+    """Return every fitted parameter by its name, with its 95 % interval."""
+    found = estimates_at(fit.space, fit.u, jackknife(fit))
+    for index in fit.space.shapes:
+        coordinate = fit.space.coordinates[index]
+        profile, best = _Profile(fit, index), float(fit.u[index])
+        ends = (farthest(profile.rise, best, bound[index]) for bound in fit.space.bounds())
+        low, high = sorted(map(coordinate.value, ends))
+        found[coordinate.name] = replace(found[coordinate.name], low=low, high=high)
+    return found
+
+
+def farthest(rise: Callable[[float], float], best: float, bound: float) -> float:
+    """Return the farthest value that chance allows on the way from the best one to a bound.
+
+    rise: by how much the deviance is higher at a value than at the best one. A moment or a period
+    has no slope to speak of, since the error is a staircase in it, with hollows; so the search
+    goes on beyond the first step that is too high.
+    """
+    way, step, values, rises = abs(bound - best), FIRST_STEP, [best], [0.0]
+    while rises[-1] < BEYOND * CHANCE and step < GROWTH * way:
+        values.append(best + float(np.copysign(min(step, way), bound - best)))
+        rises.append(rise(values[-1]))
+        step *= GROWTH
+    last = max(index for index, higher in enumerate(rises) if higher < CHANCE)
+    within, beyond = values[last], values[min(last + 1, len(values) - 1)]
+    for _ in range(HALVINGS):
+        middle = 0.5 * (within + beyond)
+        if rise(middle) < CHANCE:
+            within = middle
+        else:
+            beyond = middle
+    return within
+
+
+class _Profile:
+    """The deviance of a fit along one coordinate, while all others adapt.
+
+    Remembers where they went for values nearby: an amount may have to follow its time constant
+    far, on a curve.
+    """
+
+    def __init__(self, fit: Fit, index: int) -> None:
+        self._fit, self._index, self._known = fit, index, [fit]
+        others = np.delete(fit.jacobian, index, axis=-1).reshape(fit.whitened.size, -1)
+        self._shift = -np.linalg.pinv(others, rcond=1e-8)
+
+    def rise(self, value: float) -> float:
+        """Return by how much the deviance is higher than at the fit."""
+        index, sigma = self._index, self._fit.sigma
+        nearest = min(self._known, key=lambda known: abs(float(known.u[index]) - value))
+        u = nearest.u.copy()
+        u[index] = value
+        tried = [replace(nearest, u=u)]
+        for _ in range(ADAPTATIONS):
+            tried.append(self._adapted(tried[-1]))
+        best = min(tried, key=lambda fit: fit.deviance(sigma))
+        self._known.append(best)
+        return best.deviance(sigma) - self._fit.deviance(sigma)
+
+    def _adapted(self, moved: Fit) -> Fit:
+        """Return a step towards where the others lower the error most, by the fit's own slopes."""
+        change = (moved.whitened - self._fit.whitened).ravel()
+        shift = np.insert(self._shift @ change, self._index, 0.0)
+        u, gains = np.split(np.concatenate([moved.u, moved.gains]) + shift, [len(moved.u)])
+        bounds = self._fit.space.bounds()
+        return replace(moved, u=np.clip(u, *bounds), gains=np.clip(gains, *GAIN_LIMITS))
+
+
+def estimates_at(space: Space, u: Array, spread: Array) -> dict[str, Estimate]:
+    """Return the parameters at a point; spread: covariance of u and whatever follows it."""
+    values = space.values(u)
+    names = list(values)
+    size = len(u)
+    derivative = np.empty((len(names), size))
+    for index in range(size):
+        moved = u.copy()
+        moved[index] += STEP
+        shifted = space.values(moved)
+        derivative[:, index] = [(shifted[name] - values[name]) / STEP for name in names]
+    own = derivative @ spread[:size, :size] @ derivative.T
+    reach = QUANTILE * np.sqrt(np.maximum(np.diag(own), 0.0))
+    units = {coordinate.name: coordinate.unit for coordinate in space.coordinates}
+    stopped = dict(zip(names, at_bound(space, u), strict=True))
+    return {
+        name: Estimate(
+            value=values[name],
+            low=values[name] - float(half),
+            high=values[name] + float(half),
+            unit=units[name],
+            at_bound=bool(stopped[name]),
+        )
+        for name, half in zip(names, reach, strict=True)
+    }
+
+
+def at_bound(space: Space, u: Array) -> Array:
+    """Return which coordinates lie at their lowest or highest valid value."""
+    low, high = space.bounds()
+    return np.asarray(np.minimum(u - low, high - u) < NEAR_BOUND)

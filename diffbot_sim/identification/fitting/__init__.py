@@ -1,0 +1,1 @@
+"""Models fitted to recordings, and what their errors tell of small changes."""

@@ -1,0 +1,152 @@
+"""Fits: robust least squares on whitened prediction errors, noise model included."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from diffbot_sim.identification.fitting.coordinates import PRIOR_DEVIATION, Space
+from diffbot_sim.identification.fitting.predictor import NO_GAIN, Prediction, predict
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.statistics.minimisation import Prior, derivatives, minimise
+from diffbot_sim.identification.statistics.robust import huber
+from diffbot_sim.physics.model import Model
+from diffbot_sim.records import Array
+
+# Where fits of the noise model start, and how far its gains may go: speed, disturbance, memory.
+FIRST_GAINS = np.array([0.05, 0.005, 0.3, 0.05, 0.005, 0.3])
+GAIN_LIMITS = (np.zeros(6), np.array([0.95, 0.5, 0.999, 0.95, 0.5, 0.999]))
+GAIN_PRIOR = np.array([0.0, 0.0, 0.3, 0.0, 0.0, 0.3])
+# Evaluations in a round, and rounds at most, of fits that go on to the end.
+EVALUATIONS, ROUNDS = 10, 8
+# An error that is as bad as any.
+WORST = 1e9
+# The scale of errors that are told in m/s and rad/s.
+UNIT = np.ones(2)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A fitted structure.
+
+    u: point in space; gains, shape (6,); sigma: scale of the innovations in v and ω, shape (2,).
+    """
+
+    space: Space
+    stretches: tuple[Stretch, ...]
+    u: Array
+    gains: Array
+    sigma: Array
+
+    @cached_property
+    def model(self) -> Model:
+        """The model at the fitted point."""
+        return self.space.model(self.u)
+
+    @cached_property
+    def whitened(self) -> Array:
+        """Innovations of all stretches over sigma, shape (n, 2)."""
+        return whitened(self.stretches, self.model, self.gains, self.sigma)
+
+    @property
+    def prior_information(self) -> Array:
+        """What the weak prior knows of u and then of the gains: the inverse variances."""
+        return np.asarray(joint_prior(self.space).deviation ** -2.0)
+
+    def deviance(self, sigma: Array) -> float:
+        """Return twice the robust cost at a given scale."""
+        return float(huber(self.whitened * (self.sigma / sigma)).sum())
+
+    @cached_property
+    def jacobian(self) -> Array:
+        """Derivative of whitened by u and then the gains, shape (n, 2, p)."""
+        return self.jacobian_on(self.stretches)
+
+    def jacobian_on(self, stretches: Sequence[Stretch]) -> Array:
+        """Return the same derivative on other stretches."""
+        size = len(self.u)
+
+        def errors(point: Array) -> Array:
+            return whitened(stretches, self.space.model(point[:size]), point[size:], self.sigma)
+
+        point = np.concatenate([self.u, self.gains])
+        return derivatives(errors, point, errors(point), joint_bounds(self.space))
+
+
+def whitened(
+    stretches: Sequence[Stretch],
+    model: Model,
+    gains: Array,
+    sigma: Array,
+    pushes: Sequence[Array] | None = None,
+) -> Array:
+    """Return used innovations of several stretches, one after the other, over sigma: (n, 2)."""
+    rows = []
+    for index, stretch in enumerate(stretches):
+        push = None if pushes is None else pushes[index]
+        innovation = predict(model, stretch, gains, push).innovation
+        used = (innovation * stretch.used[:, None])[stretch.used > 0]
+        # Parameters far from any robot make numbers that cannot be squared: these only have to
+        # be bad.
+        rows.append(np.clip(used, -WORST * sigma, WORST * sigma) / sigma)
+    return np.nan_to_num(np.concatenate(rows), nan=WORST)
+
+
+def predictions(fit: Fit, stretches: Sequence[Stretch]) -> list[Prediction]:
+    """Return the one-step predictions of a fit on any stretches."""
+    return [predict(fit.model, stretch, fit.gains) for stretch in stretches]
+
+
+def fit_simulation(
+    space: Space, stretches: tuple[Stretch, ...], start: Array, evaluations: int = 25
+) -> Fit:
+    """Fit by simulation error (output error): gains 0."""
+    return fit_with_noise_held(space, stretches, start, NO_GAIN, evaluations)
+
+
+def fit_with_noise_held(
+    space: Space,
+    stretches: tuple[Stretch, ...],
+    start: Array,
+    gains: Array,
+    evaluations: int = 12,
+    rounds: int = 2,
+) -> Fit:
+    """Fit the parameters alone, the noise model as it is given."""
+
+    def errors(at: Array) -> Array:
+        return whitened(stretches, space.model(at), gains, UNIT)
+
+    prior = Prior(space.prior(), space.deviations())
+    point, sigma = minimise(errors, start, prior, space.bounds(), evaluations, rounds)
+    return Fit(space, stretches, point, gains, sigma)
+
+
+def joint_prior(space: Space) -> Prior:
+    """Return the weak prior of u and then of the gains."""
+    return Prior(
+        np.concatenate([space.prior(), GAIN_PRIOR]),
+        np.concatenate([space.deviations(), np.full(len(GAIN_PRIOR), PRIOR_DEVIATION)]),
+    )
+
+
+def joint_bounds(space: Space) -> tuple[Array, Array]:
+    """Return lowest and highest values of u and then of the gains."""
+    (low, high), (least, most) = space.bounds(), GAIN_LIMITS
+    return np.concatenate([low, least]), np.concatenate([high, most])
+
+
+def fit_prediction(
+    space: Space, stretches: tuple[Stretch, ...], start: Array, gains: Array
+) -> Fit:
+    """Fit parameters and noise model together by one-step prediction error, to the very end."""
+    size = len(start)
+
+    def errors(at: Array) -> Array:
+        return whitened(stretches, space.model(at[:size]), at[size:], UNIT)
+
+    begin = np.concatenate([start, gains])
+    prior, bounds = joint_prior(space), joint_bounds(space)
+    point, sigma = minimise(errors, begin, prior, bounds, EVALUATIONS, ROUNDS)
+    return Fit(space, stretches, point[:size], point[size:], sigma)

@@ -1,0 +1,79 @@
+"""Stretches as a fit sees them: what effects and free forms may depend on, at every sample."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from diffbot_sim.identification.fitting.fit import Fit, predictions
+from diffbot_sim.identification.fitting.predictor import Prediction
+from diffbot_sim.identification.recordings.stretches import Stretch, travel
+from diffbot_sim.records import Array
+
+
+@dataclass(frozen=True)
+class View:
+    """A stretch as a fit sees it."""
+
+    fit: Fit
+    stretch: Stretch
+    prediction: Prediction
+
+    @property
+    def v(self) -> Array:
+        """Speed [m/s], shape (k,)."""
+        return self.prediction.twist[:, 0]
+
+    @property
+    def omega(self) -> Array:
+        """Yaw rate [rad/s], shape (k,)."""
+        return self.prediction.twist[:, 1]
+
+    @cached_property
+    def wheel_speed(self) -> Array:
+        """Speeds of the wheels [m/s], shape (k, 2)."""
+        return self.prediction.twist @ self.mix
+
+    @cached_property
+    def wheel_angle(self) -> Array:
+        """Angles of the wheels [rad], shape (k, 2)."""
+        radius = self.fit.model.robot.wheel_radius
+        return travel(self.stretch, self.prediction.twist) @ self.mix / radius
+
+    @property
+    def innovation(self) -> Array:
+        """Errors of the prediction in v and ω, 0 where they do not count, shape (k, 2)."""
+        return self.prediction.innovation * self.stretch.used[:, None]
+
+    @property
+    def mix(self) -> Array:
+        """What takes (v, ω) to the speeds of the wheels, shape (2, 2)."""
+        b = self.fit.model.half_separation
+        return np.array([[1.0, 1.0], [b, -b]])
+
+    @cached_property
+    def force(self) -> Array:
+        """Commanded forces [N], shape (k, 2)."""
+        commands = self.stretch.run.commands
+        index = np.searchsorted(commands.time, self.stretch.time, side='right') - 1
+        return np.where(index[:, None] >= 0, commands.force[np.maximum(index, 0)], 0.0)
+
+    def past_force(self, first: float, last: float) -> Array:
+        """Return commanded forces averaged from `last` to `first` seconds ago, shape (k, 2)."""
+        commands, time = self.stretch.run.commands, self.stretch.time
+        stamps = np.append(commands.time, max(float(commands.time[-1]), float(time[-1])) + 1e-9)
+        impulse = np.vstack(
+            [np.zeros(2), np.cumsum(np.diff(stamps)[:, None] * commands.force, axis=0)]
+        )
+        ends = [
+            np.column_stack([np.interp(time - lag, stamps, wheel) for wheel in impulse.T])
+            for lag in (first, last)
+        ]
+        return np.asarray((ends[0] - ends[1]) / (last - first))
+
+
+def views(fit: Fit, stretches: Sequence[Stretch]) -> list[View]:
+    """Return stretches as a fit sees them."""
+    found = predictions(fit, stretches)
+    return [View(fit, s, p) for s, p in zip(stretches, found, strict=True)]

@@ -1,0 +1,1 @@
+"""Forces that no effect accounts for, whatever their law."""

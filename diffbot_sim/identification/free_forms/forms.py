@@ -1,0 +1,197 @@
+"""Forms in which a variable is looked at, whatever the law.
+
+Each form turns one stretch into columns: how much each function of the variable is there at
+every sample, shape (k, q, 1) for the body or (k, q, 2) for the right and the left wheel.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import ClassVar
+
+import numpy as np
+
+from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.fitting.views import View
+from diffbot_sim.records import Array
+
+# Numbers of knots: a line, of few functions, shows what is weak; many show what is of any form.
+# Bent ones are for what lines do not tell apart: friction at both sides of zero is a line already.
+KNOTS, BENT_KNOTS, FEW_KNOTS, FINE_KNOTS = (2, 6), (3, 6), (2, 4), (2, 6, 20)
+# Edges of the spans in which the past of a command is averaged [s].
+PAST = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
+
+# What a variable is at every sample, shape (k,) or (k, 2).
+Of = Callable[[View], Array]
+
+
+@dataclass(frozen=True)
+class Piecewise:
+    """Piecewise linear in a variable, in proportion to weights.
+
+    Knots lie at quantiles of the variable, where it has a weight.
+    """
+
+    of: Of
+    weights: Of = lambda view: np.ones(1)
+    counts: tuple[int, ...] = KNOTS
+    looked_at: ClassVar[int] = 1
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return distinct knots of each number; none where the drive does not vary this."""
+        values = np.concatenate([self._weighted(view) for view in views])
+        if len(values) == 0 or np.ptp(values) <= 1e-6:
+            return []
+        spaced = ((n, np.quantile(values, np.linspace(0.0, 1.0, n))) for n in self.counts)
+        grids = ((n, np.unique(knots)) for n, knots in spaced)
+        return [knots for n, knots in grids if len(knots) >= min(n, 3)]
+
+    def columns(self, view: View, knots: Array) -> Array:
+        """Evaluate hats along a stretch."""
+        return _hats(self.of(view), knots, self.weights(view))
+
+    def _weighted(self, view: View) -> Array:
+        values = self.of(view)
+        return np.asarray(values[np.broadcast_to(self.weights(view), values.shape) != 0.0])
+
+    def curve(self, knots: Array) -> tuple[Array, Array]:
+        """Return points of the variable and all functions there."""
+        return knots, np.eye(len(knots))
+
+
+@dataclass(frozen=True)
+class Growth(Piecewise):
+    """The same, less what is alike at all values: nothing in the mean over the quantiles."""
+
+    def columns(self, view: View, knots: Array) -> Array:
+        """Evaluate differences of hats along a stretch."""
+        hats = super().columns(view, knots)
+        return np.asarray(np.einsum('kqc,qr->krc', hats, _differences(len(knots))))
+
+    def curve(self, knots: Array) -> tuple[Array, Array]:
+        """Return points of the variable and all functions there."""
+        return knots, _differences(len(knots))
+
+
+@dataclass(frozen=True)
+class TwoSided:
+    """Piecewise linear on both sides of zero, where it may jump; nothing at zero itself."""
+
+    of: Of
+    counts: tuple[int, ...] = BENT_KNOTS
+    looked_at: ClassVar[int] = 1
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return distinct knots of the size, the same for both sides."""
+        return Piecewise(lambda view: np.abs(self.of(view)), counts=self.counts).grids(views)
+
+    def columns(self, view: View, knots: Array) -> Array:
+        """Evaluate hats along a stretch, the negative side first."""
+        values = self.of(view)
+        sides = [
+            _hats(np.abs(values), knots, np.maximum(side * np.sign(values), 0.0))
+            for side in (-1.0, 1.0)
+        ]
+        return np.concatenate([sides[0][:, ::-1], sides[1]], axis=1)
+
+    def curve(self, knots: Array) -> tuple[Array, Array]:
+        """Return points from the negative end to the positive one, and all functions there."""
+        return np.concatenate([-knots[::-1], knots]), np.eye(2 * len(knots))
+
+
+@dataclass(frozen=True)
+class Odd:
+    """Piecewise linear in the size of a variable, with its sign: alike on both sides of zero."""
+
+    of: Of
+    looked_at: ClassVar[int] = 1
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return distinct knots of the size."""
+        return TwoSided(self.of).grids(views)
+
+    def columns(self, view: View, knots: Array) -> Array:
+        """Evaluate hats along a stretch, turned round where the variable is negative."""
+        values = self.of(view)
+        return _hats(np.abs(values), knots, np.sign(values))
+
+    def curve(self, knots: Array) -> tuple[Array, Array]:
+        """Return points from the negative end to the positive one, and all functions there."""
+        side = np.eye(len(knots))
+        return np.concatenate([-knots[::-1], knots]), np.vstack([-side[::-1], side])
+
+
+@dataclass(frozen=True)
+class Periodic:
+    """Waves in an angle, in proportion to weights: of the heading, a wheel's turn, time.
+
+    waves: sets of rates by which the angle is multiplied; looked_at: among how many sets they were
+    chosen.
+    """
+
+    of: Of
+    waves: Callable[[Fit], Sequence[tuple[float, ...]]] = lambda fit: [(1.0, 2.0)]
+    looked_at: int = 1
+    points: int = 25
+    weights: Of = lambda view: np.ones((1, 1))
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return the sets of rates to be tried."""
+        return [np.array(rates) for rates in self.waves(views[0].fit)]
+
+    def columns(self, view: View, rates: Array) -> Array:
+        """Evaluate waves along a stretch, those of each wheel on their own."""
+        angle = self.of(view).reshape(len(view.stretch.time), -1)
+        waves = _waves(angle, rates)
+        apart = [waves * only for only in np.eye(angle.shape[1])[:, None]]
+        return np.concatenate(apart, axis=1) * self.weights(view)[:, None]
+
+    def curve(self, rates: Array) -> tuple[Array, Array]:
+        """Return angles of one turn, and the functions of the body or the right wheel there."""
+        angle = np.linspace(-np.pi, np.pi, self.points)
+        return angle, _waves(angle[:, None], rates / rates[0])[..., 0]
+
+
+@dataclass(frozen=True)
+class Past:
+    """Every wheel's command in spans of the past: any linear law between command and force."""
+
+    looked_at: ClassVar[int] = 1
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return the edges of the spans [s]."""
+        del views
+        return [PAST]
+
+    def columns(self, view: View, edges: Array) -> Array:
+        """Return mean commands of each span, over the largest command."""
+        most = max(float(np.abs(view.stretch.run.commands.force).max()), 1e-9)
+        spans = [view.past_force(*span) for span in pairwise(edges)]
+        return np.stack(spans, axis=1) / most
+
+    def curve(self, edges: Array) -> tuple[Array, Array]:
+        """Return the middles of the spans and the functions there."""
+        return 0.5 * (edges[1:] + edges[:-1]), np.eye(len(edges) - 1)
+
+
+Form = Piecewise | Growth | TwoSided | Odd | Periodic | Past
+
+
+def _hats(values: Array, knots: Array, weights: Array) -> Array:
+    """Return weighted hat functions, shape (k, q, 1 or 2)."""
+    hats = [weights * np.interp(values, knots, hat) for hat in np.eye(len(knots))]
+    return np.stack([hat.reshape(len(hat), -1) for hat in hats], axis=1)
+
+
+def _differences(count: int) -> Array:
+    """Return what takes hats at quantiles to functions without a mean, shape (n, n - 1)."""
+    shares = np.ones(count)
+    shares[[0, -1]] = 0.5
+    apart = np.diag(1.0 / shares)
+    return np.asarray(apart[:, :-1] - apart[:, 1:])
+
+
+def _waves(angle: Array, rates: Array) -> Array:
+    """Return the cosine and the sine of each multiple of angles (k, 1 or 2); of none, one."""
+    waves = [wave(rate * angle) for rate in rates if rate for wave in (np.cos, np.sin)]
+    return np.stack(waves + [np.ones_like(angle) for rate in rates if not rate], axis=1)

@@ -1,0 +1,137 @@
+"""Structure that no effect accounts for: a force that depends on something, whatever its law."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from diffbot_sim.identification.fitting.fit import Fit, whitened
+from diffbot_sim.identification.fitting.predictor import MAX_STEP
+from diffbot_sim.identification.free_forms.bases import Basis, again, bases
+from diffbot_sim.identification.free_forms.dependence import (
+    Dependence,
+    acting,
+    against_the_model,
+    explained_by,
+    realised,
+    sensitivity,
+    worth_of,
+)
+from diffbot_sim.identification.free_forms.floor import by_place
+from diffbot_sim.identification.free_forms.variables import VARIABLES
+from diffbot_sim.identification.recordings.start import restarted
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.result import Structure
+from diffbot_sim.identification.selection.screening import Screen
+from diffbot_sim.identification.statistics.gains import chance_of, folds_chance
+from diffbot_sim.identification.statistics.guards import (
+    BLOCK_LEVEL,
+    EITHER_LEVEL,
+    best_look,
+    is_chance,
+    lasting,
+    may_be_chance,
+)
+from diffbot_sim.identification.statistics.robust import huber
+
+# How many of the dependences are put to the test.
+FOLLOWED = 4
+# A dependence explains almost as much as another with this share of its worth.
+ALMOST = 0.9
+FORCES = {
+    'v': ('force along the robot', 'N'),
+    'omega': ('torque', 'N·m'),
+    'wheels': ('force on each wheel', 'N'),
+    'difference': ('force on one wheel and against it on the other', 'N'),
+}
+
+
+def dependences(screen: Screen) -> list[Dependence]:
+    """Try every basis on the residual of a fit, the strongest first."""
+    fit = screen.fit
+    tried = [explained_by(screen, basis) for basis in bases(fit, fit.stretches)]
+    return sorted(tried, key=lambda dependence: worth_of(dependence, fit))[::-1]
+
+
+def find_dependences(screen: Screen, held_out: Sequence[Stretch]) -> list[Dependence]:
+    """Return dependences that are beyond doubt and explain almost as much as the strongest.
+
+    The one of fewest functions, which says most, comes first.
+    """
+    tried = dependences(screen)
+    promising = [d for d in tried if not is_chance(d.p_value, len(tried))]
+    fitted = [realised(screen.fit, d) for d in _best_of_each(promising)[:FOLLOWED]]
+    beyond = (d for d in fitted if _is_beyond_doubt(screen, d, held_out, len(tried)))
+    fair = [against_the_model(screen.fit, d) for d in beyond]
+    found = [d for d in fair if not _may_be_chance(d, screen.fit, len(tried))]
+    worths = [worth_of(dependence, screen.fit) for dependence in found]
+    most = max(worths, default=0.0)
+    near = [d for d, worth in zip(found, worths, strict=True) if worth >= ALMOST * most]
+    return sorted(near, key=lambda dependence: dependence.basis.size)
+
+
+def _best_of_each(dependences: Sequence[Dependence]) -> list[Dependence]:
+    """Return the first dependence on each variable along each axis: of a line and a curve, say."""
+    first = dict[tuple[str, str], Dependence]()
+    for dependence in dependences:
+        first.setdefault((dependence.basis.variable, dependence.basis.axis), dependence)
+    return list(first.values())
+
+
+def _is_beyond_doubt(
+    screen: Screen, dependence: Dependence, held_out: Sequence[Stretch], tried: int
+) -> bool:
+    if _may_be_chance(dependence, screen.fit, tried):
+        return False
+    if dependence.p_block > EITHER_LEVEL:
+        return False
+    elsewhere = _folds_chance(screen, dependence.basis)
+    # A rough floor is the same again where the robot comes back, so that held-out data confirm
+    # nothing: other parts of the floor must, and be as sure as blocks.
+    if VARIABLES[dependence.basis.variable].order is by_place:
+        return elsewhere <= BLOCK_LEVEL and lasting(dependence.p_block, elsewhere)
+    elsewhere = best_look(elsewhere, _held_out_chance(screen.fit, dependence, held_out))
+    return lasting(dependence.p_block, elsewhere)
+
+
+def _may_be_chance(dependence: Dependence, fit: Fit, tried: int) -> bool:
+    return may_be_chance(dependence.p_value, worth_of(dependence, fit), tried)
+
+
+def _folds_chance(screen: Screen, basis: Basis) -> float:
+    """Return the chance of what it predicts of each part from others, to first order."""
+    slopes = screen.project(sensitivity(screen, basis)).reshape(-1, basis.size)
+    errors, columns = (basis.parted(r, screen.fit.stretches) for r in (screen.residual, slopes))
+    return folds_chance(errors, columns)
+
+
+def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) -> float:
+    """Return the chance of the fall of the held-out loss."""
+    begun = restarted(fit.model, held_out, MAX_STEP)
+    before = huber(whitened(begun, fit.model, fit.gains, fit.sigma))
+    adapted = np.concatenate([fit.u, fit.gains]) + dependence.adaptation
+    at = np.concatenate([adapted, dependence.amounts])
+    begun = restarted(fit.space.model(adapted[: len(fit.u)]), held_out, MAX_STEP)
+    basis = again(dependence.basis, fit, begun)
+    return chance_of(before - huber(acting(fit, basis, at, begun)))
+
+
+def describe(dependence: Dependence, fit: Fit) -> Structure:
+    """Put a dependence that a fit lacks into words and a curve."""
+    basis = dependence.basis
+    knots, curve, error = basis.curve(dependence.amounts, dependence.spread)
+    strength = basis.strength(dependence.amounts)
+    kind, unit = FORCES[basis.axis]
+    return Structure(
+        description=(
+            f'a {kind} of {strength:.3g} {unit} rms that depends on '
+            f'{basis.words} and that no effect of the library accounts for'
+        ),
+        axis=basis.axis,
+        variable=basis.variable,
+        strength=strength,
+        p_value=dependence.p_block,
+        knots=knots,
+        force=curve,
+        force_error=error,
+        worth=worth_of(dependence, fit),
+    )

@@ -1,0 +1,185 @@
+"""What a force without a law may depend on, and in which form that is looked at."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.fitting.periodicity import (
+    TEETH,
+    force_rates,
+    rates,
+    repeats,
+    wheel_orders,
+)
+from diffbot_sim.identification.fitting.views import View
+from diffbot_sim.identification.free_forms.floor import Order, by_place, in_time
+from diffbot_sim.identification.free_forms.forms import (
+    BENT_KNOTS,
+    FEW_KNOTS,
+    FINE_KNOTS,
+    Form,
+    Growth,
+    Odd,
+    Of,
+    Past,
+    Periodic,
+    Piecewise,
+    TwoSided,
+)
+from diffbot_sim.identification.free_forms.starting import rest_before, started
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.records import Array
+
+# Rates that differ by a line width, among which the strongest were chosen; a generous count.
+LOOKED_AT = 1000
+BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A variable in words, its form, and along which axes a force may depend on it.
+
+    words: rate and period stand for those of the slowest wave of a form; order: in which samples
+    are cut into parts that must agree.
+    """
+
+    words: str
+    form: Form
+    axes: tuple[str, ...]
+    order: Callable[[Sequence[Stretch]], Order] = in_time
+
+
+def _time(view: View) -> Array:
+    return view.stretch.time
+
+
+def _time_of_wheels(view: View) -> Array:
+    return np.repeat(view.stretch.time[:, None], 2, axis=1)
+
+
+def _rolling(view: View) -> Array:
+    return np.sign(view.wheel_speed)
+
+
+def _along(index: int) -> Of:
+    """Where along x (0) or y (1) the robot is [m]; 0 where no pose is known."""
+
+    def of(view: View) -> Array:
+        pose = view.stretch.pose
+        return np.zeros(len(view.stretch.time)) if pose is None else pose[:, index]
+
+    return of
+
+
+def _towards(index: int) -> Of:
+    """How much of x (0) or y (1) lies along the robot."""
+    return lambda view: np.asarray((np.cos, np.sin)[index](view.stretch.heading))
+
+
+def _place(index: int) -> Of:
+    """Return the same, once for each wheel."""
+    return lambda view: np.repeat(_along(index)(view)[:, None], 2, axis=1)
+
+
+def _alone(rates: Callable[[Fit], Sequence[float]]) -> Callable[[Fit], list[tuple[float, ...]]]:
+    """Return what gives each rate as a wave of its own."""
+    return lambda fit: [(rate,) for rate in rates(fit)]
+
+
+def _rhythms(fit: Fit) -> list[tuple[float, ...]]:
+    """Return single waves, and short pushes: waves with their harmonics, and their mean."""
+    repeated = ((*(rate * h for h in range(1, TEETH + 1)), 0.0) for rate in repeats(fit))
+    return [*_alone(rates)(fit), *repeated]
+
+
+def _share_of_force(view: View) -> Array:
+    return np.asarray(view.force / max(float(np.abs(view.force).max()), 1e-9))
+
+
+VARIABLES = {
+    'v': Variable('the speed', Piecewise(lambda view: view.v), BODY),
+    'omega': Variable('the yaw rate', Piecewise(lambda view: view.omega), BODY),
+    'turning': Variable(
+        'the yaw rate (alike to the left and to the right)',
+        Odd(lambda view: view.omega),
+        ('omega',),
+    ),
+    'cornering': Variable(
+        'the product of speed and yaw rate', Piecewise(lambda view: view.v * view.omega), BODY
+    ),
+    'heading': Variable('the heading', Periodic(lambda view: view.stretch.heading), BODY),
+    'friction_over_heading': Variable(
+        'the heading, against the motion',
+        Periodic(lambda view: view.stretch.heading, weights=_rolling),
+        ('wheels',),
+    ),
+    'time': Variable('time', Piecewise(_time), BODY),
+    'rhythm': Variable(
+        'time, the same again every {period:.3g} s',
+        Periodic(lambda view: 2.0 * np.pi * view.stretch.time, _rhythms, LOOKED_AT),
+        BODY,
+    ),
+    'wheel_speed': Variable(
+        "each wheel's speed",
+        TwoSided(lambda view: view.wheel_speed),
+        WHEELS,
+    ),
+    'rolling': Variable(
+        "each wheel's speed (alike forward and backward)",
+        Odd(lambda view: view.wheel_speed),
+        WHEELS,
+    ),
+    'wheel_angle': Variable(
+        "each wheel's angle, the same again {rate:.3g} times a turn",
+        Periodic(lambda view: view.wheel_angle, _alone(wheel_orders), LOOKED_AT),
+        ('wheels',),
+    ),
+    'wheel_force': Variable(
+        "each wheel's commanded force", Piecewise(lambda view: view.force), WHEELS
+    ),
+    'force_steps': Variable(
+        "each wheel's commanded force, as if it came in steps of {period:.3g} N",
+        Periodic(lambda view: 2.0 * np.pi * view.force, _alone(force_rates), LOOKED_AT),
+        ('wheels',),
+    ),
+    'past_force': Variable("the past of each wheel's commanded force", Past(), WHEELS),
+    'rest_before': Variable(
+        'how long each wheel rested before it started',
+        Growth(rest_before, started, FEW_KNOTS),
+        ('wheels',),
+    ),
+    'force_over_time': Variable(
+        'time, in proportion to the commanded force',
+        Piecewise(_time_of_wheels, _share_of_force, BENT_KNOTS),
+        WHEELS,
+    ),
+    'friction_over_time': Variable(
+        'time, against the motion', Piecewise(_time_of_wheels, _rolling, BENT_KNOTS), WHEELS
+    ),
+    'hill_x': Variable(
+        'where along x it is, like the pull of a hill',
+        Piecewise(_along(0), _towards(0), FINE_KNOTS),
+        ('v',),
+        by_place,
+    ),
+    'hill_y': Variable(
+        'where along y it is, like the pull of a hill',
+        Piecewise(_along(1), _towards(1), FINE_KNOTS),
+        ('v',),
+        by_place,
+    ),
+    'place_x': Variable(
+        'where along x it rolls, against the motion',
+        Piecewise(_place(0), _rolling, FINE_KNOTS),
+        ('wheels',),
+        by_place,
+    ),
+    'place_y': Variable(
+        'where along y it rolls, against the motion',
+        Piecewise(_place(1), _rolling, FINE_KNOTS),
+        ('wheels',),
+        by_place,
+    ),
+}

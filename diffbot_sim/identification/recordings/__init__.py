@@ -1,0 +1,1 @@
+"""Runs as identification uses them: cut, thinned, timed, started."""

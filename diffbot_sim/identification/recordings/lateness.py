@@ -1,0 +1,164 @@
+"""How much older a measured twist is than its stamp: many drivers tell a mean over the past.
+
+Encoders are differenced, which gives the mean since the sample before, half an interval late; a
+rolling mean or a filter makes it later still. Both look like actuators that are late.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from diffbot_sim.identification.recordings.smoothing import smoothed_over
+from diffbot_sim.identification.recordings.stretches import averaged, median_interval
+from diffbot_sim.identification.result import Timing
+from diffbot_sim.identification.statistics.norms import white_noise
+from diffbot_sim.records import Array, Odometry, Run
+
+# What makes a robot late: parameters whose sum is how late it is [s].
+LATE = ('actuator_delay.time', 'actuator_lag.time_constant')
+# Longest lag behind the pose [s] that is looked for, and grid points in an interval.
+LONGEST, FINENESS = 0.5, 4
+# A shorter run [s] does not tell it.
+SHORTEST = 10.0
+# A pose that moves otherwise than the twist says, by more than this share, tells nothing.
+ALIKE = 0.3
+# By how much twice the log-likelihood must rise where a lag behind the pose is believed.
+BEYOND_CHANCE = 50.0
+# The share of noise in a pose's changes up to which they tell more than a late twist.
+CLEAR = 0.1
+# Samples that are so many intervals apart have a hole between them.
+HOLE = 1.5
+# A speed [m/s, rad/s] that is as good as none.
+TINY = 1e-9
+
+
+def timely(run: Run) -> Run:
+    """Return a run whose twist is of the time of its pose.
+
+    A lag of up to an interval is left as it is: poses that are integrated from the twist lead it
+    or lag behind it by half of one. A longer mean, or one to both sides, hides what is fast: the
+    twist is taken from the pose's changes, over as many samples as noise and the mean ask for.
+    """
+    longest = _length_of_mean(run.odometry)
+    taken = run
+    for group in range(1, longest + 1):
+        taken = as_pose_moves(averaged(run, group))
+        twist = taken.odometry.twist
+        if np.all(white_noise(twist) < CLEAR * np.sqrt(np.mean(twist**2, axis=0))):
+            break
+    return taken
+
+
+def _length_of_mean(odometry: Odometry) -> int:
+    """Return over about how many samples to a side the twist is a mean, 0 if not for long."""
+    lag, interval = lag_behind_pose(odometry), median_interval(odometry.time)
+    if lag > interval:
+        return round(lag / interval)
+    if odometry.pose is None or odometry.time[-1] - odometry.time[0] < SHORTEST:
+        return 0
+    turned = np.diff(odometry.pose[:, 2]) / np.diff(odometry.time)
+    return smoothed_over(turned, odometry.twist[1:, 1])
+
+
+def as_pose_moves(run: Run) -> Run:
+    """Return a run whose twist is the change of the pose, told in the middle of each interval.
+
+    Not across holes: there a mean hides what happened.
+    """
+    seen = run.odometry
+    if seen.pose is None:
+        return run
+    apart = np.diff(seen.time)
+    kept = apart < HOLE * median_interval(seen.time)
+    twist = np.diff(_path(seen.pose), axis=0) / apart[:, None]
+    time, pose = (0.5 * (values[1:] + values[:-1]) for values in (seen.time, seen.pose))
+    return replace(run, odometry=Odometry(time[kept], twist[kept], pose[kept]))
+
+
+def timing(given: Run, taken: Run) -> Timing | None:
+    """Return how a run was taken that had been given; None where it was taken as it is."""
+    if taken is given:
+        return None
+    if taken.odometry.twist is not given.odometry.twist:
+        return Timing(given.name, max(0.0, lag_behind_pose(given.odometry)), 'pose')
+    late = float(given.odometry.time[0] - taken.odometry.time[0])
+    return Timing(given.name, late, 'mean')
+
+
+def of_interval_before(run: Run) -> Run:
+    """Return a run whose twist was told as the mean since the sample before."""
+    return earlier(run, 0.5 * median_interval(run.odometry.time))
+
+
+def may_be_of_interval_before(run: Run, values: Mapping[str, float]) -> bool:
+    """Say whether such odometry may be what makes a robot of these parameters look late.
+
+    A pose that was not integrated from the twist would tell.
+    """
+    interval = median_interval(run.odometry.time)
+    if not 0.0 < lateness_of(values) < interval:
+        return False
+    return run.odometry.pose is None or lag_behind_pose(run.odometry) > 0.25 * interval
+
+
+def lateness_of(values: Mapping[str, float]) -> float:
+    """Return how late a robot of these parameters is [s]."""
+    return sum(values.get(name, 0.0) for name in LATE)
+
+
+def earlier(run: Run, late: float) -> Run:
+    """Return a run with stamps of the odometry so much earlier [s], its pose as it was then."""
+    seen = run.odometry
+    time = seen.time - late
+    pose = seen.pose
+    if pose is not None:
+        pose = np.column_stack([np.interp(time, seen.time, column) for column in pose.T])
+    return replace(run, odometry=Odometry(time, seen.twist, pose))
+
+
+def lag_behind_pose(odometry: Odometry) -> float:
+    """Return by how much the twist lags the change of the pose [s]; 0 where that is not sure."""
+    if odometry.pose is None or odometry.time[-1] - odometry.time[0] < SHORTEST:
+        return 0.0
+    step = median_interval(odometry.time) / FINENESS
+    misfit = partial(_misfit, odometry, _path(odometry.pose))
+    lags = np.arange(-FINENESS, LONGEST / step) * step
+    best = float(lags[int(np.argmin([misfit(lag).cost for lag in lags]))])
+    found = minimize_scalar(
+        lambda lag: misfit(lag).cost, bounds=(best - step, best + step), method='bounded'
+    )
+    at_best = misfit(found.x)
+    sure = misfit(0.0).cost - at_best.cost > BEYOND_CHANCE
+    return float(found.x) if sure and at_best.share < ALIKE else 0.0
+
+
+class _Misfit(NamedTuple):
+    """How a twist differs from the change of a pose: -2 log-likelihood; share of the twist."""
+
+    cost: float
+    share: float
+
+
+def _misfit(odometry: Odometry, path: Array, lag: float) -> _Misfit:
+    """Hold the twist against the mean change of way and heading about a moment before."""
+    time, interval = odometry.time, median_interval(odometry.time)
+    inner = (time > time[0] + LONGEST + interval) & (time < time[-1] - 2.0 * interval)
+    at, twist = time[inner] - lag, odometry.twist[inner]
+    after, before = (
+        np.column_stack([np.interp(at + side, time, column) for column in path.T])
+        for side in (interval, -interval)
+    )
+    errors = np.mean((twist - (after - before) / (2.0 * interval)) ** 2, axis=0) + TINY**2
+    whole = np.mean(twist**2, axis=0) + TINY**2
+    return _Misfit(len(at) * float(np.log(errors).sum()), float(np.sqrt(errors / whole).min()))
+
+
+def _path(pose: Array) -> Array:
+    """Return way ahead [m] and heading [rad], shape (k, 2), from poses (k, 3)."""
+    step, middle = np.diff(pose, axis=0), 0.5 * (pose[1:, 2] + pose[:-1, 2])
+    ahead = step[:, 0] * np.cos(middle) + step[:, 1] * np.sin(middle)
+    return np.column_stack([np.concatenate([[0.0], np.cumsum(ahead)]), pose[:, 2]])

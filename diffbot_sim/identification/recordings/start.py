@@ -1,0 +1,51 @@
+"""The first state of a stretch, as a model sees it: speeds that fit the first second best."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.physics import simulate
+from diffbot_sim.physics.embedding import embedded
+from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.state import State
+from diffbot_sim.records import Array
+
+WINDOW = 1.0
+# A robot that may well have been at rest was: chance alone lets two speeds explain so much.
+REST = 9.0
+
+
+def start_of(model: Model, stretch: Stretch, max_step: float) -> State:
+    """Return the state from which a free-running simulation of a stretch begins.
+
+    A robot that may rest starts at rest exactly. Otherwise one noisy sample would turn into a
+    heading error that lasts, so v and ω are fitted to the first WINDOW seconds.
+    """
+    first = stretch.start
+    if first.v == 0.0 and first.omega == 0.0:
+        return first
+    count = max(10, int(np.searchsorted(stretch.time, stretch.time[0] + WINDOW)))
+    time, twist = stretch.time[:count], stretch.twist[:count]
+    noise = np.std(np.diff(twist, n=2, axis=0), axis=0) / np.sqrt(6.0) + 1e-9
+    whole = embedded(model)
+
+    def errors(twist_at_start: Array) -> Array:
+        start = replace(first, v=float(twist_at_start[0]), omega=float(twist_at_start[1]))
+        run = simulate(whole, stretch.run.commands, time, start, max_step)
+        return np.asarray(((twist - run.twist) / noise).ravel())
+
+    guess = np.array([first.v, first.omega])
+    best = least_squares(errors, guess, loss='huber', f_scale=3.0, diff_step=1e-5, max_nfev=10)
+    at_rest = np.minimum(np.abs(errors(np.zeros(2))), 3.0)
+    moving = np.minimum(np.abs(errors(best.x)), 3.0)
+    if np.sum(at_rest**2) < np.sum(moving**2) + REST:
+        return replace(first, v=0.0, omega=0.0)
+    return replace(first, v=float(best.x[0]), omega=float(best.x[1]))
+
+
+def restarted(model: Model, stretches: Sequence[Stretch], max_step: float) -> tuple[Stretch, ...]:
+    """Return stretches that begin in the state in which this model fits them best."""
+    return tuple(replace(s, start=start_of(model, s, max_step)) for s in stretches)

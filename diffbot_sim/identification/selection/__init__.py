@@ -1,0 +1,1 @@
+"""Which effects of the library the recordings speak for."""

@@ -1,0 +1,66 @@
+"""Candidates: every effect is tried, and fitted jointly with the nominal parameters."""
+
+import numpy as np
+
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.fit import (
+    FIRST_GAINS,
+    UNIT,
+    Fit,
+    fit_prediction,
+    fit_with_noise_held,
+    whitened,
+)
+from diffbot_sim.identification.fitting.predictor import MAX_STEP
+from diffbot_sim.identification.recordings.start import restarted
+from diffbot_sim.identification.selection.screening import Score, Screen
+from diffbot_sim.identification.statistics.robust import scale_of
+from diffbot_sim.physics.effects import Effect
+from diffbot_sim.records import Array
+
+# Evaluations after which a start, or an effect, is compared with others.
+SHORT = 4
+
+
+def approach(screen: Screen, kind: type[Effect], score: Score) -> Fit:
+    """Fit a structure with one effect more for a short while, the noise model held.
+
+    Each start has a local minimum of its own; the best is returned.
+    """
+    base = screen.fit
+    space = Space(base.space.declared, (*base.space.kinds, kind))
+    tried = [
+        fit_with_noise_held(space, base.stretches, start, base.gains, SHORT, rounds=1)
+        for start in score.starts
+    ]
+    return min(tried, key=lambda fit: fit.deviance(base.sigma))
+
+
+def complete(near: Fit) -> Fit:
+    """Fit to the end what was approached: first with the noise model held, then with all."""
+    held = fit_with_noise_held(near.space, near.stretches, near.u, near.gains)
+    return fit_prediction(near.space, near.stretches, held.u, held.gains)
+
+
+def begun_anew(fit: Fit) -> Fit:
+    """Fit again from the first states that this model finds best: a poorer one misjudged them."""
+    stretches = restarted(fit.model, fit.stretches, MAX_STEP)
+    return fit_prediction(fit.space, stretches, fit.u, fit.gains)
+
+
+def reduce(fit: Fit, name: str) -> Fit:
+    """Fit the structure that lacks one of the effects.
+
+    From the noise model that errs less without it: one that trusts the model with the effect may
+    never catch up with what the rest cannot follow.
+    """
+    kinds = tuple(kind for kind in fit.space.kinds if kind.name != name)
+    space = Space(fit.space.declared, kinds)
+    kept = np.delete(fit.u, fit.space.places(name))
+
+    def scale(gains: Array) -> float:
+        errors = whitened(fit.stretches, space.model(kept), gains, UNIT)
+        return float(np.prod(scale_of(errors)))
+
+    gains = min((fit.gains, FIRST_GAINS), key=scale)
+    return fit_prediction(space, fit.stretches, kept, gains)

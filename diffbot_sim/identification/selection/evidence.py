@@ -1,0 +1,201 @@
+"""How much a larger structure is worth: in sample, robust to serial correlation, and held out."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import isnan, nan
+from operator import itemgetter
+
+import numpy as np
+from scipy import stats
+
+from diffbot_sim.identification.fitting.fit import Fit, whitened
+from diffbot_sim.identification.fitting.predictor import MAX_STEP
+from diffbot_sim.identification.recordings.start import restarted
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.statistics.gains import block_gain, folds_chance
+from diffbot_sim.identification.statistics.guards import AGAINST, best_look
+from diffbot_sim.identification.statistics.memory import fall_of_deviance
+from diffbot_sim.identification.statistics.projection import Projection
+from diffbot_sim.identification.statistics.robust import huber, influence
+from diffbot_sim.records import Array
+
+# Blocks that count as independent; each is much longer than any correlation of innovations.
+BLOCKS = 40
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """A structure against the smaller one inside it.
+
+    delta_bic: fall of the BIC; p_value: likelihood ratio; p_block: Wald test with the covariance
+    of blocks; held_out_gain: fall of the mean half squared error per held-out sample;
+    p_held_out: the chance of that, by signed ranks of blocks; p_folds: the same of parts of the
+    runs predicted from the others, nan where they prove nothing.
+    """
+
+    delta_bic: float
+    p_value: float
+    p_block: float
+    held_out_gain: float
+    p_held_out: float
+    p_folds: float
+
+    @property
+    def p_elsewhere(self) -> float:
+        """The chance of what it predicts of data that it was not fitted to."""
+        return best_look(*self._elsewhere)
+
+    @property
+    def is_refuted(self) -> bool:
+        """Whether held-out data speak against it: most of them lose by it."""
+        return self.held_out_gain < 0.0 and self.p_held_out >= AGAINST
+
+    @property
+    def is_contradicted(self) -> bool:
+        """Whether held-out data and other parts of the runs would rather do without it."""
+        return min(self._elsewhere) >= AGAINST
+
+    @property
+    def _elsewhere(self) -> list[float]:
+        return [p for p in (self.p_held_out, self.p_folds) if not isnan(p)]
+
+    def of_best(self, looks: int) -> 'Evidence':
+        """Return the evidence for a structure that was the best of so many."""
+        chances = (self.p_value, self.p_block, self.p_folds)
+        p_value, p_block, p_folds = np.minimum(1.0, looks * np.array(chances)).tolist()
+        return replace(self, p_value=p_value, p_block=p_block, p_folds=p_folds)
+
+
+def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
+    """Weigh a large fit against a small one nested in it."""
+    added = len(large.u) - len(small.u)
+    ratio = fall_of_deviance(small.whitened * (small.sigma / large.sigma), large.whitened)
+    samples = large.whitened.size
+    gain, chance = held_out_gain(small, large, held_out)
+    amounts, shapes = _added(small, large)
+    return Evidence(
+        delta_bic=ratio - added * float(np.log(samples)),
+        p_value=float(stats.chi2.sf(ratio, added)),
+        p_block=wald(large, amounts, shapes),
+        held_out_gain=gain,
+        p_held_out=chance,
+        p_folds=nan if _adds_law_of_time(small, large) else _folds_chance(large, amounts, shapes),
+    )
+
+
+def _adds_law_of_time(small: Fit, large: Fit) -> bool:
+    """Say whether a law was added that must prove right at the end: parts around prove nothing."""
+    return any(kind.is_of_time for kind in large.space.kinds if kind not in small.space.kinds)
+
+
+def _added(small: Fit, large: Fit) -> tuple[list[int], list[int]]:
+    """Return where the larger fit has amounts, and shapes, that the smaller one lacks."""
+    known = {coordinate.name for coordinate in small.space.coordinates}
+    names = [coordinate.name for coordinate in large.space.coordinates]
+    added = [i for i, name in enumerate(names) if name not in known]
+    shapes = [i for i in added if i in large.space.shapes]
+    return [i for i in added if i not in shapes], shapes
+
+
+def delta_bic(first: Fit, second: Fit) -> float:
+    """Return how much lower the second's BIC is than the first's; they need not be nested."""
+    sigma = np.minimum(first.sigma, second.sigma)
+    fall = first.deviance(sigma) - second.deviance(sigma)
+    return fall - (len(second.u) - len(first.u)) * float(np.log(second.whitened.size))
+
+
+def held_out_gain(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> tuple[float, float]:
+    """Return the mean fall of the held-out loss per sample, and its chance over blocks.
+
+    Watched by the noise model of either fit, whichever shows more: that of the small one may make
+    up for what it lacks, that of the large one trusts a model that is a moment late when a wheel
+    breaks away. The chance counts both looks.
+    """
+    begun = [restarted(fit.model, held_out, MAX_STEP) for fit in (small, large)]
+    looks = []
+    for gains in (small.gains, large.gains):
+        losses = [
+            0.5 * huber(whitened(stretches, fit.model, gains, large.sigma)).sum(axis=1)
+            for fit, stretches in zip((small, large), begun, strict=True)
+        ]
+        looks.append(block_gain(losses[0] - losses[1]))
+    gain, _ = min(looks, key=itemgetter(1))
+    return gain, best_look(*(chance for _, chance in looks))
+
+
+def _folds_chance(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
+    """Return the chance of what some amounts predict of each part of the runs from others.
+
+    To first order around the fit, all else adapted to the whole; shapes are held.
+    """
+    jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
+    free = Projection(np.delete(jacobian, [*amounts, *shapes], axis=1))
+    columns, errors = free.rest(jacobian[:, amounts]), free.rest(influence(fit.whitened)).ravel()
+    departure = (fit.u - fit.space.prior())[amounts]
+    return folds_chance(errors - columns @ departure, columns)
+
+
+def sandwich(jacobian: Array, errors: Array, known: Array) -> Array:
+    """Return the block-robust covariance of a least-squares fit.
+
+    known: what a weak prior knows of each coordinate, the inverse variances, shape (p,).
+    """
+    bread = np.linalg.pinv(jacobian.T @ jacobian + np.diag(known))
+    scores = block_scores(jacobian, errors)
+    return np.asarray(bread @ (scores.T @ scores * BLOCKS / (BLOCKS - 1)) @ bread)
+
+
+def jackknife(fit: Fit) -> Array:
+    """Return the covariance of (u, gains) from fits that lack a block each, to first order.
+
+    Shape (p, p). Unlike the sandwich it does not shrink as parameters use up the blocks: CR3 of
+    MacKinnon, Nielsen, Webb (2023). What one block alone tells is wide.
+    """
+    jacobian = fit.jacobian
+    parts = [np.tensordot(j, j, ((0, 1), (0, 1))) for j in np.array_split(jacobian, BLOCKS)]
+    whole = sum(parts, np.diag(fit.prior_information))
+    scores = block_scores(jacobian, fit.whitened)
+    moved = [np.linalg.solve(whole - p, s) for p, s in zip(parts, scores, strict=True)]
+    return np.asarray(np.transpose(moved) @ moved * (BLOCKS - 1) / BLOCKS)
+
+
+def block_scores(jacobian: Array, errors: Array) -> Array:
+    """Return J'e of each block, shape (BLOCKS, p): jacobian (n, ..., p), errors (n, ...)."""
+    parts = (np.array_split(values, BLOCKS) for values in (jacobian, influence(errors)))
+    return np.array([np.tensordot(e, j, e.ndim) for j, e in zip(*parts, strict=True)])
+
+
+def wald(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
+    """Return the block-robust p-value of some amounts being at their prior (neutral).
+
+    shapes: what they were found with, and is held: without an amount it means nothing, and beside
+    it the same data may allow twice the amount twice as late. How many were tried is counted by
+    `Evidence.of_best`.
+    """
+    jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
+    kept = np.delete(np.arange(jacobian.shape[1]), shapes)
+    chosen = np.searchsorted(kept, amounts)
+    spread = sandwich(jacobian[:, kept], fit.whitened.ravel(), fit.prior_information[kept])
+    departure = (fit.u - fit.space.prior())[amounts]
+    blocks = informative_blocks(jacobian[:, amounts])
+    return wald_p(departure, spread[np.ix_(chosen, chosen)], blocks)
+
+
+def informative_blocks(sensitivity: Array) -> float:
+    """Return how many blocks carry what is known of the columns, the richest column deciding.
+
+    A few seconds of a run may hold all of it; then a spread over blocks is worth little. What is
+    usual in a block counts: one stop, a sample early or late, must not outweigh all the rest.
+    """
+    parts = np.array_split(np.abs(sensitivity), BLOCKS)
+    weights = np.array([np.median(part, axis=0) for part in parts]) + 1e-30
+    return float(np.max(weights.sum(axis=0) ** 2 / np.sum(weights**2, axis=0)))
+
+
+def wald_p(departure: Array, spread: Array, blocks: float = BLOCKS) -> float:
+    """Return the p-value of a departure whose covariance comes from so many blocks."""
+    count = len(departure)
+    if blocks < count + 1.0:
+        return 1.0
+    w = float(departure @ np.linalg.pinv(spread) @ departure)
+    return float(stats.f.sf(w / count, count, blocks - count))

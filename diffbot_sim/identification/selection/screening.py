@@ -1,0 +1,196 @@
+"""Cheap screening: how much of the residual each effect could explain, to first order."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from operator import itemgetter
+
+import numpy as np
+from scipy import stats
+
+from diffbot_sim.identification.fitting.coordinates import Space, point_of
+from diffbot_sim.identification.fitting.fit import Fit, whitened
+from diffbot_sim.identification.fitting.periodicity import wheel_orders
+from diffbot_sim.identification.fitting.response import Response, responses
+from diffbot_sim.identification.fitting.views import views
+from diffbot_sim.identification.recordings.stretches import largest_command
+from diffbot_sim.identification.statistics.minimisation import difference, flatter
+from diffbot_sim.identification.statistics.parallel import each
+from diffbot_sim.identification.statistics.projection import Projection
+from diffbot_sim.identification.statistics.robust import influence
+from diffbot_sim.physics.effects import Effect, Excitation
+from diffbot_sim.records import Array
+
+# A small amount of an effect, in coordinates of order one.
+AMOUNT = 0.05
+# Only what could not plausibly be chance is worth a full fit.
+PROMISING = 0.02
+# First order promises too much where parameters would move far: shares of a step that are tried.
+SHARES = (1.0, 0.5)
+# How many options are compared by their actual error, and how many of them may be followed.
+COMPARED, FOLLOWED = 6, 2
+
+
+@dataclass(frozen=True)
+class Score:
+    """First-order worth of an effect.
+
+    ratio: estimate of the likelihood ratio; p_value: its chance under no effect, counting the
+    shapes tried; starts: points (u of the larger space) at which full fits should begin, the best
+    first; seen: whether the drive shows the effect at all once the free parameters have adapted;
+    shapes: how many were tried.
+    """
+
+    ratio: float
+    p_value: float
+    starts: tuple[Array, ...]
+    seen: bool
+    shapes: int
+
+
+class Screen:
+    """Residual of one fit with everything that its free parameters could explain taken out."""
+
+    def __init__(self, fit: Fit) -> None:
+        self.fit = fit
+        jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
+        self._free, self._jacobian = Projection(jacobian), jacobian
+        self._errors = self.project(influence(fit.whitened))
+        self._scores = dict[type[Effect], Score]()
+
+    @property
+    def residual(self) -> Array:
+        """The errors that free parameters cannot explain, shape (2 n,)."""
+        return self._errors.ravel()
+
+    def adaptation(self, sensitivity: Array, amount: Array) -> Array:
+        """Return how the free parameters shift when an amount of something is added."""
+        change = sensitivity.reshape(-1, sensitivity.shape[-1]) @ amount
+        shift, *_ = np.linalg.lstsq(self._jacobian, -change, rcond=1e-8)
+        return np.asarray(shift)
+
+    def project(self, values: Array) -> Array:
+        """Take out of values, shape (n, 2) or (n, 2, q), what the free parameters explain."""
+        return self._free.rest(values)
+
+    def explained(self, sensitivity: Array) -> tuple[float, Array, Array]:
+        """Return the fall of the squared error, the coefficients, the projected sensitivity."""
+        flat = self.project(sensitivity).reshape(-1, sensitivity.shape[-1])
+        errors = self.residual
+        amount, *_ = np.linalg.lstsq(flat, -errors, rcond=1e-8)
+        fall = float(errors @ errors - np.sum((errors + flat @ amount) ** 2))
+        return fall, np.asarray(amount), flat
+
+    def score(self, kind: type[Effect]) -> Score:
+        """Try small amounts of an effect, in each of its shapes, and its starts as they stand."""
+        if kind not in self._scores:
+            self._scores[kind] = self._scored(kind)
+        return self._scores[kind]
+
+    def _scored(self, kind: type[Effect]) -> Score:
+        space = Space(self.fit.space.declared, (*self.fit.space.kinds, kind))
+        starts = [point_of(kind, values) for values in kind.starts(self.drive)]
+        if kind.shape:
+            options = each(partial(self._amounts, space, kind), starts)
+        else:
+            neutral = point_of(kind, [spec.default for spec in kind.specs()])
+            options = each(partial(self._as_it_stands, space), starts)
+            options.append(self._amounts(space, kind, neutral))
+        ratio, shapes = max(option.fall for option in options), len(starts) if kind.shape else 1
+        return Score(
+            ratio,
+            min(1.0, shapes * float(stats.chi2.sf(ratio, len(kind.specs())))),
+            self._best(space, options),
+            any(option.seen for option in options),
+            shapes,
+        )
+
+    @cached_property
+    def drive(self) -> Excitation:
+        """What the fitted stretches offer to starting points."""
+        stretches, seen = self.fit.stretches, views(self.fit, self.fit.stretches)
+        return Excitation(
+            force=largest_command(stretches),
+            duration=max(float(s.time[-1]) for s in stretches),
+            orders=wheel_orders(self.fit),
+            power=max(0.01, *(float((v.force * v.wheel_speed).max()) for v in seen)),
+        )
+
+    @cached_property
+    def responses(self) -> tuple[Response, ...]:
+        """How the errors on each stretch answer to pushes on the body."""
+        return responses(self.fit)
+
+    def _amounts(self, space: Space, kind: type[Effect], at: Array) -> '_Option':
+        """Return the amounts of an effect, of the shape that `at` has, that explain most."""
+        size = len(self.fit.u)
+        neutral = [
+            x if spec.name in kind.shape else c.prior
+            for spec, c, x in zip(kind.specs(), space.of_effects[-len(at) :], at, strict=True)
+        ]
+        point = np.concatenate([self.fit.u, neutral])
+        turned = [i for i, spec in enumerate(kind.specs()) if spec.name not in kind.shape]
+        slopes = np.stack([self._slope(space, point, size + i) for i in turned], axis=-1)
+        fall, amount, flat = self.explained(slopes)
+        change = np.zeros(len(point))
+        change[[size + i for i in turned]] = amount
+        change[:size] = self.adaptation(slopes, amount)[:size]
+        return _Option(fall, self._shares(space, point, change), _is_seen(flat, slopes))
+
+    def _shares(self, space: Space, point: Array, change: Array) -> tuple[Array, ...]:
+        """Return points on the way along a change, with and without what it does to others."""
+        alone = np.where(np.arange(len(point)) < len(self.fit.u), 0.0, change)
+        bounds = space.bounds()
+        return tuple(
+            np.clip(point + share * by, *bounds) for share in SHARES for by in (change, alone)
+        )
+
+    def _as_it_stands(self, space: Space, start: Array) -> '_Option':
+        """Return what values that are far from neutral explain."""
+        point = np.concatenate([self.fit.u, start])
+        change = (self._errors_at(space, point) - self.fit.whitened)[..., None]
+        fall, _, flat = self.explained(change)
+        return _Option(fall, (point,), _is_seen(flat, change))
+
+    def _errors_at(self, space: Space, point: Array) -> Array:
+        return whitened(self.fit.stretches, space.model(point), self.fit.gains, self.fit.sigma)
+
+    def _slope(self, space: Space, neutral: Array, index: int) -> Array:
+        """Return the slope of the errors along an amount, of both sides where both are valid."""
+        errors = partial(self._errors_at, space)
+        slope = partial(difference, errors, neutral, self.fit.whitened, index)
+        if neutral[index] - AMOUNT < space.bounds()[0][index]:
+            return slope(AMOUNT)
+        return flatter(slope(AMOUNT), slope(-AMOUNT))
+
+    def _best(self, space: Space, options: Sequence['_Option']) -> tuple[Array, ...]:
+        """Return the point that promises most, and of the next ones that with the least error."""
+        promising = sorted(options, key=lambda option: -option.fall)[:COMPARED]
+        first, *others = each(partial(self._least, space), promising)
+        others.sort(key=itemgetter(0))
+        return tuple(point for _, point in (first, *others[: FOLLOWED - 1]))
+
+    def _least(self, space: Space, option: '_Option') -> tuple[float, Array]:
+        """Return the least error of an option's points, and the point that has it."""
+        losses = [self._loss(space, point) for point in option.points]
+        best = int(np.argmin(losses))
+        return losses[best], option.points[best]
+
+    def _loss(self, space: Space, point: Array) -> float:
+        """Return the squared error at a point, no sample counting beyond three deviations."""
+        return float(np.sum(influence(self._errors_at(space, point)) ** 2))
+
+
+@dataclass(frozen=True)
+class _Option:
+    """Points at one of which a full fit may begin, and how much that promises."""
+
+    fall: float
+    points: tuple[Array, ...]
+    seen: bool
+
+
+def _is_seen(flat: Array, slopes: Array) -> bool:
+    """Say whether anything is left once the free parameters have adapted."""
+    left = float(np.linalg.norm(flat))
+    return left > 1e-2 and left > 1e-3 * float(np.linalg.norm(slopes))

@@ -1,0 +1,137 @@
+"""Which effects enter: forward while the evidence is beyond doubt, then backward."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from operator import itemgetter
+
+from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.fitting.shaking import shaken
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.selection.candidates import approach, begun_anew, complete, reduce
+from diffbot_sim.identification.selection.evidence import Evidence, compare, delta_bic
+from diffbot_sim.identification.selection.screening import Screen
+from diffbot_sim.identification.selection.trials import OUTDONE, Progress, Trial, try_all
+from diffbot_sim.identification.statistics.guards import may_be_chance
+from diffbot_sim.physics.effects import Effect
+
+# Structures closer than this in BIC cannot be told apart.
+INDISTINGUISHABLE = 10.0
+# What explains less than this share of what a found effect does, to first order, is no rival.
+RIVAL_SHARE = 0.5
+MOST_EFFECTS = 4
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Where the search ended.
+
+    base: the nominal fit; final: the chosen one; trials: the last trial of each effect, best
+    first; without: for each effect chosen, the fit that lacks it; support: the evidence for it
+    within the final structure; alternatives: those that the data cannot tell from it.
+    """
+
+    base: Fit
+    final: Fit
+    trials: tuple[Trial, ...]
+    without: dict[str, Fit]
+    support: dict[str, Evidence]
+    alternatives: dict[str, tuple[str, ...]]
+
+    def withdrawn(self, name: str) -> 'Selection':
+        """Return the selection without one of the effects chosen."""
+        kept, final = [key for key in self.support if key != name], self.without[name]
+        return replace(
+            self,
+            final=final,
+            without={key: reduce(final, key) for key in kept},
+            trials=tuple(
+                replace(trial, outcome=OUTDONE) if trial.kind.name == name else trial
+                for trial in self.trials
+            ),
+            support={key: self.support[key] for key in kept},
+            alternatives={key: self.alternatives[key] for key in kept},
+        )
+
+
+def select(
+    base: Fit,
+    kinds: Sequence[type[Effect]],
+    held_out: Sequence[Stretch],
+    progress: Progress,
+) -> Selection:
+    """Search the structures made of these effects."""
+    last, path = dict[str, Trial](), [Screen(base)]
+    while len(path) <= MOST_EFFECTS:
+        trials = try_all(path[-1], kinds, held_out, progress)
+        last.update({trial.kind.name: trial for trial in trials})
+        entering = [(t.evidence.delta_bic, t.fit) for t in trials if t.accepted and t.fit]
+        if not entering:
+            break
+        _, best = max(entering, key=itemgetter(0))
+        progress(f'{best.space.kinds[-1].name} enters')
+        path.append(Screen(shaken(begun_anew(best))))
+    fits = [screen.fit for screen in path]
+    final, without, support = _prune(fits, len(kinds), held_out, progress)
+    chosen = set(without)
+    trials = sorted(last.values(), key=lambda t: (t.kind.name in chosen, t.evidence.delta_bic))
+    alternatives = {
+        name: _alternatives(final, name, _screened(rest, path), kinds, progress)
+        for name, rest in without.items()
+    }
+    return Selection(base, final, tuple(reversed(trials)), without, support, alternatives)
+
+
+def _prune(
+    path: Sequence[Fit], tried: int, held_out: Sequence[Stretch], progress: Progress
+) -> tuple[Fit, dict[str, Fit], dict[str, Evidence]]:
+    """Take out, one by one, effects that later ones have made needless.
+
+    path: the fits of the forward search. Each is asked once more from where the larger one led:
+    an effect must not live off a poor end of the fit that lacks it.
+    """
+    fit = path[-1]
+    while True:
+        support, smaller = dict[str, Evidence](), dict[str, Fit]()
+        for kind in fit.space.kinds:
+            rest = set(fit.space.kinds) - {kind}
+            progress(f'trying without {kind.name}')
+            ends = [reduce(fit, kind.name), *(f for f in path if set(f.space.kinds) == rest)]
+            smaller[kind.name] = min(ends, key=lambda end: end.deviance(fit.sigma))
+            support[kind.name] = compare(smaller[kind.name], fit, held_out)
+        needless = [
+            name
+            for name, evidence in support.items()
+            if may_be_chance(evidence.p_value, evidence.delta_bic, tried)
+        ]
+        if not needless:
+            return fit, smaller, support
+        worst = min(needless, key=lambda name: support[name].delta_bic)
+        progress(f'{worst} leaves')
+        fit = smaller[worst]
+
+
+def _screened(fit: Fit, path: Sequence[Screen]) -> Screen:
+    """Return the screen of a fit; those of the path know its scores already."""
+    return next((screen for screen in path if screen.fit is fit), None) or Screen(fit)
+
+
+def _alternatives(
+    final: Fit, name: str, screen: Screen, kinds: Sequence[type[Effect]], progress: Progress
+) -> tuple[str, ...]:
+    """Return effects that, added to the rest, explain the data as well as what was found."""
+    present = {effect.name for effect in final.model.effects}
+    (chosen,) = (kind for kind in final.space.kinds if kind.name == name)
+    # First order promises too little on a rough floor, but to both alike.
+    worth = screen.fit.deviance(final.sigma) - final.deviance(final.sigma)
+    worth = min(worth, screen.score(chosen).ratio)
+    found = []
+    for kind in kinds:
+        if kind.name in present:
+            continue
+        score = screen.score(kind)
+        if not score.seen or score.ratio < RIVAL_SHARE * worth:
+            continue
+        progress(f'trying {kind.name} as an alternative')
+        if delta_bic(complete(approach(screen, kind, score)), final) < INDISTINGUISHABLE:
+            found.append(kind.name)
+    return tuple(found)

@@ -1,0 +1,53 @@
+"""Whether predictions gain by something: signed ranks over blocks of samples."""
+
+import numpy as np
+from scipy import stats
+
+from diffbot_sim.identification.statistics.robust import huber
+from diffbot_sim.records import Array
+
+# Blocks of samples that count as independent.
+BLOCKS = 20
+# Parts of the runs, and into how many groups of parts they are dealt in turn.
+PARTS, FOLDS = 40, 5
+# Keeps columns apart that the other parts of a run hardly show.
+RIDGE = 1e-6
+# Largest fall of the loss that one sample of another part may stand for.
+MOST_OF_SAMPLE = 4.0
+
+
+def block_gain(gain: Array) -> tuple[float, float]:
+    """Return the mean of gains per sample and the p-value of its being above zero.
+
+    Signed ranks over blocks: a single block with a large gain, or loss, cannot decide.
+    """
+    blocks = [block.mean() for block in np.array_split(gain, BLOCKS)]
+    if not np.any(blocks):
+        return 0.0, 1.0
+    return float(gain.mean()), float(stats.wilcoxon(blocks, alternative='greater').pvalue)
+
+
+def chance_of(gain: Array) -> float:
+    """Return the chance of gains of samples, shape (n, 2)."""
+    # Where a wheel starts or stops a small force decides much: no sample may say more than this.
+    return block_gain(np.clip(gain, -MOST_OF_SAMPLE, MOST_OF_SAMPLE).sum(axis=1))[1]
+
+
+def folds_chance(errors: Array, columns: Array) -> float:
+    """Return the chance of what amounts from other parts of the runs predict of each part.
+
+    errors: whitened, shape (2 n,); columns: their derivatives by the amounts, shape (2 n, q); of
+    both is taken out what else is free. Parts lie between each other: where a robot never comes
+    back, or time has gone, the end of a run cannot confirm what the beginning says.
+    """
+    columns = columns / np.maximum(np.linalg.norm(columns, axis=0), 1e-12)
+    parts = np.arange(len(errors)) * PARTS // len(errors) % FOLDS
+    inside = [(columns[parts == fold], errors[parts == fold]) for fold in range(FOLDS)]
+    squares = np.array([c.T @ c for c, _ in inside])
+    products = np.array([c.T @ e for c, e in inside])
+    gain = np.empty(len(errors))
+    for fold, (c, e) in enumerate(inside):
+        others = squares.sum(axis=0) - squares[fold] + RIDGE * np.eye(columns.shape[1])
+        amounts = np.linalg.solve(others, products[fold] - products.sum(axis=0))
+        gain[parts == fold] = huber(e) - huber(e + c @ amounts)
+    return chance_of(gain.reshape(-1, 2))

@@ -1,0 +1,40 @@
+"""What past errors tell of the next one: a noise model beyond that of the predictor.
+
+Where a controller hears the odometry, its commands carry past errors of measurement. If these are
+coloured, past commands then seem to tell of the next error, though only past errors do. What
+something explains must go beyond that.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+
+from diffbot_sim.identification.statistics.robust import huber, influence
+from diffbot_sim.records import Array
+
+# Edges of the spans in which past errors are averaged, in samples.
+SPANS = (0, 1, 2, 3, 5, 8, 13, 21, 34, 55)
+
+
+def fall_of_deviance(before: Array, after: Array) -> float:
+    """Return how much less some whitened errors (n, 2) weigh than others; no less than nothing.
+
+    Weighed as they are, and beyond what their own past tells of them: the lesser fall counts.
+    """
+    as_they_are = float(huber(before).sum() - huber(after).sum())
+    beyond = len(before) * float(np.log(unforeseen(before) / unforeseen(after)).sum())
+    return max(min(as_they_are, beyond), 0.0)
+
+
+def unforeseen(errors: Array) -> Array:
+    """Return the mean square of what past errors (n, 2) do not tell of each, shape (2,)."""
+    errors = influence(errors)
+    total = np.vstack([np.zeros(2), np.cumsum(errors, axis=0)])
+    now = np.arange(len(errors))
+    past = [
+        (total[np.maximum(now - near, 0)] - total[np.maximum(now - far, 0)]) / (far - near)
+        for near, far in pairwise(SPANS)
+    ]
+    told = np.column_stack(past)
+    known, *_ = np.linalg.lstsq(told, errors, rcond=1e-8)
+    return np.asarray(np.mean((errors - told @ known) ** 2, axis=0))

@@ -1,0 +1,144 @@
+"""Robust least squares with a weak prior; parameters and the scale of errors settle in turn."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from diffbot_sim.identification.statistics.parallel import each
+from diffbot_sim.identification.statistics.robust import HUBER, scale_of
+from diffbot_sim.records import Array
+
+# Step of finite differences, in coordinates of order one.
+DIFFERENCE = 1e-5
+# A slope so many times as steep as all but a hundredth may be a jump: a wheel just breaks away.
+JUMP, ALL_BUT = 30.0, 0.99
+# A scale that changes by less than this share between two rounds has settled.
+SETTLED = 0.002
+# Errors (n, 2) at a point (p,).
+Errors = Callable[[Array], Array]
+# Lowest and highest coordinates, each of shape (p,).
+Bounds = tuple[Array, Array]
+
+
+class Prior(NamedTuple):
+    """Where coordinates are pulled to, and how weakly."""
+
+    centre: Array
+    deviation: Array
+
+
+def derivatives(errors: Errors, at: Array, base: Array, bounds: Bounds) -> Array:
+    """Return derivatives of errors by differences within bounds, on all cores, shape (n, 2, p).
+
+    Where a slope may be a jump, both sides are looked at.
+    """
+    low, high = bounds
+
+    def column(index: int) -> Array:
+        one, *other = (
+            partial(difference, errors, at, base, index, step)
+            for step in (DIFFERENCE, -DIFFERENCE)
+            if low[index] <= at[index] + step <= high[index]
+        )
+        slopes = one()
+        size = np.abs(slopes)
+        if not other or size.max() <= JUMP * np.quantile(size, ALL_BUT):
+            return slopes
+        return flatter(slopes, other[0]())
+
+    return np.stack(each(column, range(len(at))), axis=-1)
+
+
+def difference(errors: Errors, at: Array, base: Array, index: int, step: float) -> Array:
+    """Return by how much errors change with one coordinate, per unit of it, shape (n, 2)."""
+    moved = at.copy()
+    moved[index] += step
+    return np.asarray((errors(moved) - base) / step)
+
+
+def flatter(one: Array, other: Array) -> Array:
+    """Return at each sample the flatter of its slopes on both sides of a point.
+
+    Errors jump where the least change decides whether a wheel breaks away. A jump lies on one
+    side and is no slope: one such sample would outweigh all the rest.
+    """
+    return np.where(np.abs(one) <= np.abs(other), one, other)
+
+
+def minimise(
+    errors: Errors,
+    start: Array,
+    prior: Prior,
+    bounds: Bounds,
+    evaluations: int,
+    rounds: int,
+) -> tuple[Array, Array]:
+    """Alternate robust least squares and the scale of the errors; return point and scale."""
+    low, high = bounds
+    margin = 1e-9 * np.maximum(1.0, np.abs(start))
+    point, known = np.clip(start, low + margin, high - margin), _Remembered(errors, bounds)
+    sigma = scale_of(known.errors(point))
+    for _ in range(rounds):
+        point, converged = _least_squares(known, point, prior, bounds, sigma, evaluations)
+        last, sigma = sigma, scale_of(known.errors(point))
+        if converged and np.all(np.abs(sigma / last - 1.0) < SETTLED):
+            break
+    return point, sigma
+
+
+class _Remembered:
+    """Errors and their derivatives where they were asked for last: that is often asked again."""
+
+    def __init__(self, errors: Errors, bounds: Bounds) -> None:
+        self._errors, self._bounds = errors, bounds
+        self._at = self._linear_at = np.array([np.nan])
+        self._values = self._slopes = np.empty(0)
+
+    def errors(self, at: Array) -> Array:
+        """Return the errors, shape (n, 2)."""
+        if not np.array_equal(at, self._at):
+            self._at, self._values = at.copy(), self._errors(at)
+        return self._values
+
+    def derivatives(self, at: Array) -> Array:
+        """Return their derivatives, shape (n, 2, p)."""
+        if not np.array_equal(at, self._linear_at):
+            self._slopes = derivatives(self._errors, at, self.errors(at), self._bounds)
+            self._linear_at = at.copy()
+        return self._slopes
+
+
+def _least_squares(
+    known: _Remembered,
+    start: Array,
+    prior: Prior,
+    bounds: Bounds,
+    sigma: Array,
+    evaluations: int,
+) -> tuple[Array, bool]:
+    """Minimise robust whitened errors; return the point, and whether it is a minimum."""
+
+    def cost(at: Array) -> Array:
+        whitened = known.errors(at) / sigma
+        return np.concatenate([whitened.ravel(), (at - prior.centre) / prior.deviation])
+
+    def jacobian(at: Array) -> Array:
+        whitened = known.derivatives(at) / sigma[:, None]
+        return np.vstack([whitened.reshape(-1, len(at)), np.diag(1.0 / prior.deviation)])
+
+    result = least_squares(
+        cost,
+        start,
+        jac=jacobian,
+        bounds=bounds,
+        loss='huber',
+        f_scale=HUBER,
+        x_scale='jac',
+        max_nfev=evaluations,
+        ftol=1e-6,
+        xtol=1e-6,
+    )
+    return np.asarray(result.x), bool(result.status > 0)

@@ -1,0 +1,53 @@
+"""How large errors are, and how large those of a perfect model would be."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from diffbot_sim.identification.result import ErrorNorm
+from diffbot_sim.identification.statistics.robust import NORMAL
+from diffbot_sim.records import Array
+
+# Distinct values [m/s, rad/s] closer than this are one, apart by rounding.
+SAME = 1e-9
+# White noise gives second differences of this many times its deviation.
+SECOND = np.sqrt(6.0)
+
+
+def norm(errors: Array) -> ErrorNorm:
+    """Return root mean squares of the columns v and ω."""
+    v, omega = np.sqrt(np.mean(errors**2, axis=0))
+    return ErrorNorm(float(v), float(omega))
+
+
+def noise_floor(twists: Sequence[Array], models: Sequence[Array]) -> ErrorNorm:
+    """Return what measurement noise leaves of a perfect model.
+
+    twists: measured, one array (n, 2) for each stretch; models: what a model has there. White
+    noise, or what the steps of a coarse encoder stand for where that is more.
+    """
+    white = norm(np.concatenate([_white(t - m) for t, m in zip(twists, models, strict=True)]))
+    v, omega = resolution(np.concatenate(twists)) / np.sqrt(12.0)
+    return ErrorNorm(max(white.v_rmse, v), max(white.omega_rmse, omega))
+
+
+def white_noise(twist: Array) -> Array:
+    """Return the white noise of a measured twist (n, 2), which moves smoothly; shape (2,)."""
+    return np.asarray(np.sqrt(np.mean(_white(twist) ** 2, axis=0)))
+
+
+def _white(errors: Array) -> Array:
+    """Return what white noise leaves in the second differences, scaled back.
+
+    Model errors are smooth from sample to sample and vanish there. The few largest, where a stop
+    is a sample early or late, are left out.
+    """
+    noise = np.diff(errors, n=2, axis=0) / SECOND
+    limit = 5.0 * NORMAL * np.median(np.abs(noise), axis=0)
+    return np.where(np.abs(noise) <= np.maximum(limit, 1e-12), noise, 0.0)
+
+
+def resolution(twist: Array) -> Array:
+    """Return the smallest steps in which v and ω are told, shape (2,): next to 0 for noise."""
+    steps = [np.diff(np.unique(np.round(column / SAME))) * SAME for column in twist.T]
+    return np.array([step.min() if step.size else 0.0 for step in steps])
