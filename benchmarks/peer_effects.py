@@ -165,6 +165,18 @@ def _settling_stiction(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'settling': 0.15 * size * make.plant.static}
 
 
+def _caster(make: Make, size: float, c: Chance) -> dict[str, float]:
+    trail, drag = 0.5 * make.plant.radius, 0.5 * size * make.plant.coulomb
+    swivel = {'caster_swivel': drag * trail, 'caster_ahead': -1.5 * make.plant.half}
+    return {'caster_roll': drag, 'caster_trail': trail, **swivel}
+
+
+def _swinging_load(make: Make, size: float, c: Chance) -> dict[str, float]:
+    share = min(0.15 * size, 0.5)
+    rate = {'swing_rate': 0.7 + 1.5 * c.share, 'swing_damping': 0.05}
+    return {'mass': (1.0 - share) * make.plant.mass, 'swing_mass': share * make.plant.mass, **rate}
+
+
 EFFECTS: dict[str, Law] = {
     'quadratic_drag': _quadratic_drag,
     'slope': _slope,
@@ -193,6 +205,8 @@ FOREIGN: dict[str, Law] = {
     'shoves': _shoves,
     'coarse_force': _coarse_force,
     'settling_stiction': _settling_stiction,
+    'caster': _caster,
+    'swinging_load': _swinging_load,
 }
 
 

@@ -93,3 +93,13 @@ class Plant(NamedTuple):
     coarse: float = 0.0
     # Dry friction of a wheel at rest [N]: settling ln(1 + rest / SETTLES) more.
     settling: float = 0.0
+    # A caster: dry friction of rolling [N] and of swivelling [N·m], pivot ahead of the axle, and
+    # how far it trails [m].
+    caster_roll: float = 0.0
+    caster_swivel: float = 0.0
+    caster_ahead: float = 0.0
+    caster_trail: float = 1.0
+    # A load that swings along the robot [kg], how often [Hz], and its damping ratio.
+    swing_mass: float = 0.0
+    swing_rate: float = 0.0
+    swing_damping: float = 0.0

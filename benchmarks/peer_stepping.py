@@ -9,6 +9,7 @@ from math import cos, sin
 
 import numpy as np
 from numba import njit
+from peer_attached import caster, swinging
 from peer_forces import acting, body_force, body_torque, traction, wheel_friction
 from peer_plant import Plant
 
@@ -19,10 +20,11 @@ STEP = 2e-4  # [s]
 SWEEPS, SETTLED = 100, 1e-11
 
 # The state: wheel speeds [m/s], pose [m, m, rad], wheel angles [rad], motor forces [N], friction
-# of the right wheel, the left one [N] and against turning [N·m], the number of steps made, and for
-# how long the wheels have been at rest [s].
+# of the right wheel, the left one [N] and against turning [N·m], the number of steps made, for how
+# long the wheels have been at rest [s], the caster's angle [rad], and how far [m] and how fast
+# [m/s] the load has swung.
 RIGHT, LEFT, X, Y, YAW, ANGLE_R, ANGLE_L, MOTOR_R, MOTOR_L = range(9)
-FRICTION_R, FRICTION_L, SCRUB, COUNT, REST_R, REST_L, SIZE = range(9, 16)
+FRICTION_R, FRICTION_L, SCRUB, COUNT, REST_R, REST_L, CASTER, SWUNG, SWINGING, SIZE = range(9, 19)
 
 
 def at_rest(p: Plant) -> tuple[Array, Array]:
@@ -55,8 +57,11 @@ def _roll(p: Plant, s: Array, time: float, force_r: float, force_l: float) -> No
     loaded = 1.0 if time >= p.load_time else 0.0
     mass = p.mass + loaded * p.load_mass
     inertia = p.inertia + loaded * p.load_inertia + mass * p.ahead**2
-    along = (body_force(p, time, mass, v, omega, s[YAW]) + force_r + force_l) * STEP / mass
-    torque = body_torque(p, mass, v, omega, s[YAW]) + p.half * (force_r - force_l)
+    trailing, turning, swivelling = caster(p, s[CASTER], v, omega)
+    swung, back = swinging(p, s[SWUNG], s[SWINGING])
+    force = body_force(p, time, mass, v, omega, s[YAW]) + force_r + force_l + trailing + swung
+    along = force * STEP / mass
+    torque = body_torque(p, mass, v, omega, s[YAW]) + p.half * (force_r - force_l) + turning
     around = p.half * torque * STEP / inertia
     old_r, old_l = s[RIGHT], s[LEFT]
     _stick_or_slide(p, s, time, mass, inertia, old_r + along + around, old_l + along - around)
@@ -67,6 +72,9 @@ def _roll(p: Plant, s: Array, time: float, force_r: float, force_l: float) -> No
     s[YAW] += turn
     s[ANGLE_R] += mean_r / p.radius
     s[ANGLE_L] += mean_l / p.radius
+    s[CASTER] += STEP * swivelling
+    s[SWINGING] += STEP * back - 0.5 * (s[RIGHT] - old_r + s[LEFT] - old_l)
+    s[SWUNG] += STEP * s[SWINGING]
     s[REST_R] = s[REST_R] + STEP if s[RIGHT] == 0.0 else 0.0
     s[REST_L] = s[REST_L] + STEP if s[LEFT] == 0.0 else 0.0
 

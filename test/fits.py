@@ -12,10 +12,10 @@ from diffbot_sim.records import Array, Commands, Run
 SMOOTH, ROUGH = Surroundings(), Surroundings(roughness=0.3)
 
 
-def fitted(run: Run) -> tuple[Fit, tuple[Stretch, ...]]:
-    """Return a fit of the plain model to a run, and the held-out rest."""
+def fitted(run: Run, declared: Model | None = None) -> tuple[Fit, tuple[Stretch, ...]]:
+    """Return a fit of a model, the plain one or another, to a run, and the held-out rest."""
     learned, held_out = split([run])
-    space = Space(Model(), ())
+    space = Space(declared or Model(), ())
     return fit_prediction(space, learned, space.prior(), FIRST_GAINS), held_out
 
 

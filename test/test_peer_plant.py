@@ -94,6 +94,30 @@ def test_wheel_that_has_settled_needs_more_to_break_away():
     assert late.odometry.twist[-1, 0] == 0.0
 
 
+def test_load_that_swings_and_body_share_the_impulse():
+    plant = BARE._replace(mass=8.0, swing_mass=2.0, swing_rate=1.0)
+    v = driven(plant, 1.0, 1.0).odometry.twist[:, 0]
+    time = np.arange(len(v)) / 50.0
+    swung = 2.0 * np.pi * np.sqrt(10.0 / 8.0) * time
+    share = (1.0 + 0.25 * np.sin(swung) / np.maximum(swung, 1e-9)) * 0.2 * time
+    np.testing.assert_allclose(v, share, atol=2e-4)
+
+
+def test_caster_costs_what_its_friction_takes_on_a_straight_way():
+    plant = BARE._replace(caster_roll=1.0, caster_ahead=-0.3, caster_trail=0.04)
+    run = driven(plant, 3.0, 3.0)
+    assert run.odometry.twist[-1, 0] == pytest.approx(0.5 * run.odometry.time[-1], rel=0.01)
+
+
+def test_caster_takes_energy_and_gives_none():
+    pivot = {'caster_ahead': -0.3, 'caster_trail': 0.04}
+    plant = BARE._replace(caster_roll=0.5, caster_swivel=0.05, **pivot)
+    v, omega = driven(plant, 1.0, 0.4, until=1.0).odometry.twist[51:].T
+    energy = 5.0 * v**2 + 0.2 * omega**2
+    assert np.all(np.diff(energy) <= 1e-9)
+    assert energy[-1] < 0.9 * energy[0]
+
+
 @pytest.mark.parametrize('drive', DRIVES)
 @pytest.mark.parametrize('make', MAKES)
 def test_clean_drive_agrees_with_our_simulator_far_below_the_noise(make, drive):

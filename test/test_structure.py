@@ -5,6 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fits import ROUGH, SMOOTH, acted_otherwise, fitted
+from peer_drives import DRIVES
+from peer_recording import Recording, record
+from peer_robots import MAKES, exact
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
@@ -77,6 +80,28 @@ def test_wheels_that_stick_the_more_the_longer_they_rest_are_told_by_their_rest(
     both = np.repeat(np.column_stack([ramp, np.where(held, 0.0, ramp)])[:, None], 2, axis=1)
     left, *_ = left_by(acted_otherwise(Commands(time, both[..., 0]), both[..., 1]))
     assert left.basis.variable == 'rest_before'
+
+
+def left_by_peer(**attached: float) -> Dependence:
+    """Return what a plain fit leaves of a robot of other make that has something attached."""
+    make = MAKES['medium']
+    driver = DRIVES['forces'](make, 3, 120.0, 50.0)
+    run = record(make.plant._replace(**attached), driver, Recording(), 3)
+    fit, held_out = fitted(run, exact(make.plant))
+    left, *_ = find_dependences(Screen(fit), held_out)
+    return left
+
+
+def test_load_that_swings_is_told_by_how_often() -> None:
+    left = left_by_peer(mass=8.5, swing_mass=1.5, swing_rate=1.1, swing_damping=0.05)
+    assert left.basis.variable == 'swing'
+    assert left.basis.grid == pytest.approx([1.1], rel=0.2)
+
+
+def test_caster_that_swivels_is_told_by_the_way_since_turning_back() -> None:
+    pivot = {'caster_ahead': -0.3, 'caster_trail': 0.04}
+    left = left_by_peer(caster_swivel=0.03, **pivot)
+    assert left.basis.variable in ('way_since_reversal', 'turn_since_reversal')
 
 
 @pytest.mark.parametrize('name', ['v', 'wheel_speed'])

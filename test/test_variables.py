@@ -11,8 +11,10 @@ from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, predictions
 from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.identification.free_forms.bases import Basis
-from diffbot_sim.identification.free_forms.forms import PAST, Growth
+from diffbot_sim.identification.free_forms.forms import PAST, Growth, Spans
 from diffbot_sim.identification.free_forms.starting import START, rest_before, started
+from diffbot_sim.identification.free_forms.swinging import swung
+from diffbot_sim.identification.free_forms.turning_back import rolled_since, turned_since
 from diffbot_sim.identification.free_forms.variables import VARIABLES
 from diffbot_sim.identification.recordings.stretches import whole
 from diffbot_sim.physics import Model
@@ -96,6 +98,37 @@ def test_friction_after_a_rest_acts_as_wheels_start(view: View) -> None:
     assert np.all(backward[rolling & (begun < START - 0.5 * interval)])
     assert not np.any(backward[~rolling | (begun > START + 0.5 * interval)])
     assert not np.any(started(stop_and_go)[:, 1])
+
+
+def test_way_since_a_wheel_turned_back_goes_on_over_a_rest(view: View) -> None:
+    time = view.stretch.time
+    speed = np.select([time < 5.0, time < 8.0, time < 11.0], [0.4, -0.2, 0.0], -0.2)
+    there_and_back = np.column_stack([speed, np.zeros(len(time))])
+    seen = replace(view, prediction=replace(view.prediction, twist=there_and_back))
+    at = np.searchsorted(time, (4.0, 6.0, 10.0, 12.0))
+    np.testing.assert_allclose(rolled_since(seen)[at, 0], (1.6, 0.2, 0.6, 0.8), atol=0.01)
+    assert not np.any(turned_since(seen))
+
+
+def test_spans_that_never_occur_are_not_tried(view: View) -> None:
+    form = Spans(
+        turned_since, lambda view: np.ones(len(view.v)), ((0.0, 0.1), (0.0, 0.1, 1e6, 1e7))
+    )
+    (edges,) = form.grids([view])
+    np.testing.assert_array_equal(edges, (0.0, 0.1))
+
+
+def test_what_swings_at_the_rate_of_a_drive_swings_most() -> None:
+    time = np.arange(0.0, 20.0, 0.02)
+    wave = np.sin(2.0 * np.pi * 1.0 * time)
+    largest = [np.abs(swung(time, wave, rate)).max() for rate in (0.5, 1.0, 2.0)]
+    assert largest[1] > 4.0 * max(largest[0], largest[2])
+
+
+def test_what_swings_does_so_alike_with_fewer_samples() -> None:
+    time = np.linspace(0.0, 4.0, 401)
+    fine, coarse = (swung(t, np.tanh(t), 0.8)[-1] for t in (time, time[::4]))
+    np.testing.assert_allclose(coarse, fine, rtol=0.01, atol=2e-3)
 
 
 def test_past_of_a_steady_command_is_that_command(view: View) -> None:

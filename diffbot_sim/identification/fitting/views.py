@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, predictions
-from diffbot_sim.identification.fitting.predictor import Prediction
+from diffbot_sim.identification.fitting.predictor import NO_GAIN, Prediction, predict
 from diffbot_sim.identification.recordings.stretches import Stretch, travel
 from diffbot_sim.records import Array
 
@@ -40,6 +40,11 @@ class View:
         """Angles of the wheels [rad], shape (k, 2)."""
         radius = self.fit.model.robot.wheel_radius
         return travel(self.stretch, self.prediction.twist) @ self.mix / radius
+
+    @cached_property
+    def simulated(self) -> Array:
+        """Free-running simulation of the twist: no noise drives it, shape (k, 2)."""
+        return predict(self.fit.model, self.stretch, NO_GAIN).twist
 
     @property
     def innovation(self) -> Array:

@@ -74,6 +74,36 @@ class Growth(Piecewise):
 
 
 @dataclass(frozen=True)
+class Spans:
+    """Constant in each span of a variable, in proportion to weights; nothing beyond the last.
+
+    edges: sets of edges, each tried on its own.
+    """
+
+    of: Of
+    weights: Of
+    edges: tuple[tuple[float, ...], ...]
+    looked_at: ClassVar[int] = 1
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return sets of edges, all of whose spans occur."""
+        sets = [np.array(edges) for edges in self.edges]
+        seen = [np.concatenate([self.columns(view, edges) for view in views]) for edges in sets]
+        return [edges for edges, s in zip(sets, seen, strict=True) if np.all(np.any(s, (0, 2)))]
+
+    def columns(self, view: View, edges: Array) -> Array:
+        """Evaluate the spans along a stretch."""
+        count = len(view.stretch.time)
+        values, weights = (of(view).reshape(count, -1) for of in (self.of, self.weights))
+        within = [weights * ((values >= a) & (values < b)) for a, b in pairwise(edges)]
+        return np.stack(within, axis=1)
+
+    def curve(self, edges: Array) -> tuple[Array, Array]:
+        """Return both ends of each span and all functions there."""
+        return np.repeat(edges, 2)[1:-1], np.repeat(np.eye(len(edges) - 1), 2, axis=0)
+
+
+@dataclass(frozen=True)
 class TwoSided:
     """Piecewise linear on both sides of zero, where it may jump; nothing at zero itself."""
 
@@ -172,9 +202,6 @@ class Past:
     def curve(self, edges: Array) -> tuple[Array, Array]:
         """Return the middles of the spans and the functions there."""
         return 0.5 * (edges[1:] + edges[:-1]), np.eye(len(edges) - 1)
-
-
-Form = Piecewise | Growth | TwoSided | Odd | Periodic | Past
 
 
 def _hats(values: Array, knots: Array, weights: Array) -> Array:

@@ -19,21 +19,29 @@ from diffbot_sim.identification.free_forms.forms import (
     BENT_KNOTS,
     FEW_KNOTS,
     FINE_KNOTS,
-    Form,
     Growth,
     Odd,
     Of,
     Past,
     Periodic,
     Piecewise,
+    Spans,
     TwoSided,
 )
 from diffbot_sim.identification.free_forms.starting import rest_before, started
+from diffbot_sim.identification.free_forms.swinging import Swinging
+from diffbot_sim.identification.free_forms.turning_back import (
+    ANGLES,
+    WAYS,
+    rolled_since,
+    turned_since,
+)
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.records import Array
 
 # Rates that differ by a line width, among which the strongest were chosen; a generous count.
 LOOKED_AT = 1000
+Form = Piecewise | Growth | Spans | TwoSided | Odd | Periodic | Past | Swinging
 BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
 
 
@@ -61,6 +69,10 @@ def _time_of_wheels(view: View) -> Array:
 
 def _rolling(view: View) -> Array:
     return np.sign(view.wheel_speed)
+
+
+def _turning(view: View) -> Array:
+    return np.sign(view.omega)
 
 
 def _along(index: int) -> Of:
@@ -149,6 +161,26 @@ VARIABLES = {
         'how long each wheel rested before it started',
         Growth(rest_before, started, FEW_KNOTS),
         ('wheels',),
+    ),
+    'way_since_reversal': Variable(
+        'how far each wheel has rolled since it last turned back',
+        Spans(rolled_since, _rolling, WAYS),
+        ('wheels',),
+    ),
+    'turn_since_reversal': Variable(
+        'how far it has turned since it last turned the other way',
+        Spans(turned_since, _turning, ANGLES),
+        ('omega',),
+    ),
+    'swing': Variable(
+        'how something swings along the robot, {rate:.3g} times a second',
+        Swinging(lambda view: view.simulated[:, 0]),
+        ('v',),
+    ),
+    'yaw_swing': Variable(
+        'how something swings round with the robot, {rate:.3g} times a second',
+        Swinging(lambda view: view.simulated[:, 1]),
+        ('omega',),
     ),
     'force_over_time': Variable(
         'time, in proportion to the commanded force',
