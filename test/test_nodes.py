@@ -6,6 +6,7 @@ from math import nan
 from signal import SIGINT, SIGTERM
 from time import monotonic, sleep
 
+import numpy as np
 import pytest
 from geometry_msgs.msg import Twist, TwistStamped, WrenchStamped
 from rcl_interfaces.srv import SetParameters
@@ -259,5 +260,6 @@ def test_a_parameter_file_loads_robot_effects_and_noise(loaded, started):
 
 def test_the_inner_loop_holds_a_stamped_twist_on_a_slope_at_double_speed(loaded):
     drive(loaded, 'cmd_vel', twist(TwistStamped, 0.3, 0.0), near=(0.3, 0.0))
-    settled = loaded.hear(300)[-1]  # 3 s without a command, and no time-out
-    assert twist_of(settled) == pytest.approx((0.3, 0.0), abs=NEAR)
+    held = loaded.hear(300)[-100:]  # 3 s without a command, and no time-out
+    # A machine that halts the loop for a moment lets the slope have the robot: hence the median.
+    assert np.median([twist_of(m) for m in held], axis=0) == pytest.approx((0.3, 0.0), abs=NEAR)
