@@ -106,6 +106,7 @@ def _payload_change(make: Make, size: float, c: Chance) -> dict[str, float]:
         'load_mass': share * make.plant.mass,
         'load_inertia': [1.0, 0.6][c.law % 2] * share * make.plant.inertia,
         'load_time': DURATION * (0.2 + 0.35 * c.share),
+        'load_friction': [0.0, 1.0][c.law % 2] * share,
     }
 
 
@@ -138,6 +139,10 @@ def _speed_bump(make: Make, size: float, c: Chance) -> dict[str, float]:
 
 def _rough_patch(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'patch': 0.5 * size * make.plant.coulomb}
+
+
+def _carpet(make: Make, size: float, c: Chance) -> dict[str, float]:
+    return {'carpet': 0.3 * size, 'carpet_time': DURATION * (0.2 + 0.35 * c.share)}
 
 
 def _slip_loss(make: Make, size: float, c: Chance) -> dict[str, float]:
@@ -199,6 +204,7 @@ EFFECTS: dict[str, Law] = {
 FOREIGN: dict[str, Law] = {
     'speed_bump': _speed_bump,
     'rough_patch': _rough_patch,
+    'carpet': _carpet,
     'slip_loss': _slip_loss,
     'sway': _sway,
     'repeated_push': _repeated_push,

@@ -66,6 +66,10 @@ def wheel_friction(
     rest: for how long the wheel has been at rest [s].
     """
     aged = 1.0 + p.warming * (1.0 - exp(-time / p.warm_time)) + p.wear * time
+    if time >= p.load_time:
+        aged *= 1.0 + p.load_friction
+    if time >= p.carpet_time:
+        aged *= 1.0 + p.carpet
     dry = aged * (p.coulomb + (p.static - p.coulomb) * exp(-p.stribeck * abs(speed)))
     dry += p.settling * log(1.0 + rest / SETTLES)
     viscous = aged * p.viscous

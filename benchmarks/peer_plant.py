@@ -53,10 +53,11 @@ class Plant(NamedTuple):
     # [N]
     bias_right: float = 0.0
     bias_left: float = 0.0
-    # Load [kg, kg·m²] that is there from a moment [s] on.
+    # Load [kg, kg·m²] that is there from a moment [s] on, and by which share it raises friction.
     load_mass: float = 0.0
     load_inertia: float = 0.0
     load_time: float = 0.0
+    load_friction: float = 0.0
     ahead: float = 0.0
     # Force [N] times sin(order × wheel angle + phase).
     ripple_right: float = 0.0
@@ -76,6 +77,9 @@ class Plant(NamedTuple):
     # Dry friction of each wheel [N] on every second band of the floor across x, of a width [m].
     patch: float = 0.0
     patch_width: float = 1.0
+    # By which share friction is larger from a moment [s] on: another floor.
+    carpet: float = 0.0
+    carpet_time: float = 0.0
     # Share of the force that is lost at a force of slip_force [N]; it grows as the square.
     slip: float = 0.0
     slip_force: float = 1.0

@@ -58,6 +58,17 @@ def test_stuck_wheel_holds_while_the_other_slides():
     assert v - 0.2 * omega == pytest.approx(0.0, abs=1e-15)
 
 
+@pytest.mark.parametrize('cause', ['load', 'carpet'])
+def test_friction_that_jumps_slows_down_more(cause):
+    rubbing = BARE._replace(static=1.5, coulomb=1.5)
+    jump = {
+        'load': {'load_friction': 0.4, 'load_time': 1.5},
+        'carpet': {'carpet': 0.4, 'carpet_time': 1.5},
+    }
+    v = driven(rubbing._replace(**jump[cause]), 8.0, 8.0, until=1.0).odometry.twist[:, 0]
+    assert (v[80] - v[90]) / (v[55] - v[65]) == pytest.approx(1.4, rel=1e-9)
+
+
 def test_delay_lag_and_dead_band_act_on_the_force():
     late = driven(BARE._replace(delay=0.05, deadband=1.0), 3.0, 3.0).odometry
     assert late.twist[-1, 0] == pytest.approx(2.0 * 2.0 / 10.0 * (late.time[-1] - 0.05), rel=1e-9)

@@ -19,7 +19,7 @@ from diffbot_sim.identification.selection.candidates import reduce
 from diffbot_sim.identification.selection.evidence import delta_bic
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.stepwise import Selection
-from diffbot_sim.identification.selection.trials import Trial
+from diffbot_sim.identification.selection.trials import INCREDIBLE, Trial
 from diffbot_sim.identification.statistics.guards import BLOCK_LEVEL
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
@@ -76,12 +76,18 @@ def _suspicion(
     if most is None or suspected < SUSPICIOUS:
         return selection, None
     nearest = describe(dependences(Screen(final))[0], final)
-    words = f'something that {most.kind.name} explains in part, though not all along the runs, or'
+    words = f'something that {most.kind.name} explains in part, though {_but(most)}, or'
     left = replace(nearest, description=f'{words} {nearest.description}')
     worth, weakest = _weakest(selection)
     if WORTHIER * worth > suspected:
         return selection, left
     return _without(selection, weakest, left, held_out)
+
+
+def _but(refused: Trial) -> str:
+    """Say why an effect that explains much may not enter."""
+    incredible = refused.outcome == INCREDIBLE
+    return 'only with values that no robot has' if incredible else 'not all along the runs'
 
 
 def _pushed(selection: Selection, left: Structure | None) -> tuple[Selection, Structure | None]:

@@ -88,6 +88,8 @@ def _links(kinds: tuple[type[Effect], ...]) -> dict[Stage, tuple[_Link, ...]]:
         last, last_state = first + len(kind.specs()), state + kind.states
         link = _Link(kind.kernel, kind.update, first, last, state, last_state)
         links[kind.stage] += (link,)
+        if kind.friction_kernel:
+            links[Stage.WHEEL_FRICTION] += (link._replace(kernel=kind.friction_kernel),)
         first, state = last, last_state
     return links
 
@@ -181,8 +183,8 @@ def _laws(params, states, at, inputs, right, left):  # type: ignore[no-untyped-d
     traction = drive(params, states, at, Traction(inputs.right, inputs.left))
     load = push(params, states, at, Load(inputs.force, inputs.torque, 0.0, 0.0, 0.0))
     balance = weigh(params, states, at, nominal_balance(params, traction, load))
-    law_right = rub(params, states, at, nominal_law(params, 1.0, right, traction.right))
-    law_left = rub(params, states, at, nominal_law(params, -1.0, left, traction.left))
+    law_right = rub(params, states, at, nominal_law(params, 1.0, right, traction.right, balance))
+    law_left = rub(params, states, at, nominal_law(params, -1.0, left, traction.left, balance))
     return gather(params, traction, load, balance, law_right, law_left)
 
 

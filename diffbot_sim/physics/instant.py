@@ -44,10 +44,12 @@ class Instant(NamedTuple):
 
 
 @compiled
-def nominal_law(params: Array, side: float, direction: float, traction: float) -> Law:
+def nominal_law(
+    params: Array, side: float, direction: float, traction: float, balance: Balance
+) -> Law:
     """Return the friction law that both wheels share, for one of them."""
     own = (params[4], params[5], params[6], params[7], params[8])
-    return Law(side, direction, traction, *own)
+    return Law(side, direction, traction, balance.mass / params[0], *own)
 
 
 @compiled

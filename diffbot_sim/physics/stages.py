@@ -53,7 +53,8 @@ class Law(NamedTuple):
     """Stage WHEEL_FRICTION: eq. (13) for one wheel in one direction of rolling.
 
     side is +1 for the right wheel and -1 for the left; direction is +1 forward, -1 backward;
-    traction is the force that drives the wheel [N].
+    traction is the force that drives the wheel [N]; burden is the robot's mass as a share of the
+    one it was declared with.
     |F_fr| = coulomb + excess·exp(-stribeck·|v|) + viscous·|v| while rolling, and at most
     static at rest; static, coulomb and excess [N], viscous [N·s/m], stribeck [s/m].
     """
@@ -61,6 +62,7 @@ class Law(NamedTuple):
     side: float
     direction: float
     traction: float
+    burden: float
     static: float
     coulomb: float
     excess: float
@@ -105,6 +107,7 @@ def scaled(law: Law, dry: float, viscous: float) -> Law:
         law.side,
         law.direction,
         law.traction,
+        law.burden,
         law.static * dry,
         law.coulomb * dry,
         law.excess * dry,

@@ -1,7 +1,7 @@
 """payload_change: v = F t / m before the moment, and with the new mass after it."""
 
 import numpy as np
-from motion import commands, push
+from motion import commands, drive, push
 
 from diffbot_sim.physics import Friction, Model, Plant, simulate
 from diffbot_sim.physics.effects.payload_change import PayloadChange
@@ -15,6 +15,16 @@ def test_acceleration_changes_at_the_moment_whatever_the_step():
         run = push(model, 5.0, 5.0, 3.0, every=0.5, max_step=step)
         early, late = np.minimum(run.time, 1.2345), np.maximum(run.time - 1.2345, 0.0)
         np.testing.assert_allclose(run.twist[:, 0], early + late / 1.5, rtol=1e-9)
+
+
+def test_friction_that_follows_the_weight_slows_down_as_before():
+    rubbing = Friction('coulomb', normal_force=49.05, mu_coulomb=0.03)
+    for share, slowing in ((0.0, 0.5), (1.0, 1.0)):
+        model = Model(friction=rubbing, effects=(PayloadChange(10.0, 0.0, 2.0, share),))
+        rows = (0.0, 6.0, 6.0), (1.0, 0.0, 0.0)
+        speed = drive(model, *rows, until=3.0, every=0.25).twist[:, 0]
+        before, after = speed[5] - speed[7], speed[9] - speed[11]
+        np.testing.assert_allclose(after, slowing * before, rtol=1e-9)
 
 
 def test_turning_changes_too():

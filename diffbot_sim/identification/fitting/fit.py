@@ -44,6 +44,11 @@ class Fit:
         """The model at the fitted point."""
         return self.space.model(self.u)
 
+    @property
+    def incredible(self) -> frozenset[str]:
+        """The effects to which it gives values that no robot has."""
+        return frozenset(e.name for e in self.model.effects if not e.is_credible)
+
     @cached_property
     def whitened(self) -> Array:
         """Innovations of all stretches over sigma, shape (n, 2)."""

@@ -101,7 +101,7 @@ def _prune(
         needless = [
             name
             for name, evidence in support.items()
-            if may_be_chance(evidence.p_value, evidence.delta_bic, tried)
+            if may_be_chance(evidence.p_value, evidence.delta_bic, tried) or name in fit.incredible
         ]
         if not needless:
             return fit, smaller, support

@@ -25,6 +25,7 @@ PASSING = 'not beyond a disturbance that changes slowly'
 UNCONFIRMED = 'does not predict held-out data better'
 BEHIND = 'explains far less than another effect'
 OUTDONE = 'resembles what acts, but a free-form force explains more'
+INCREDIBLE = 'fits only with values that no robot has'
 UNSEEN = 'not excited by this drive'
 
 Progress = Callable[[str], None]
@@ -104,7 +105,10 @@ def _completed(
 ) -> Trial:
     fit = complete(approached.near)
     evidence = compare(current, fit, held_out).of_best(approached.score.shapes)
-    return Trial(approached.kind, fit, evidence, judge(evidence, tried))
+    outcome = judge(evidence, tried)
+    if outcome == SUPPORTED and approached.kind.name in fit.incredible:
+        outcome = INCREDIBLE
+    return Trial(approached.kind, fit, evidence, outcome)
 
 
 def _dismissed(screen: Screen, kind: type[Effect], score: Score) -> Trial:

@@ -32,6 +32,8 @@ class Effect:
     meaning: one line for people; source: where the law comes from.
     stage: where the kernel acts.
     kernel: compiled `kernel(at, value, *state, *parameters) -> value`.
+    friction_kernel: compiled, likewise, for stage WHEEL_FRICTION: of what acts elsewhere, but is
+    felt there, too.
     states: how many numbers of state it keeps (stage ACTUATOR or COMMAND only).
     update: compiled, same arguments; returns the state after `at.elapsed` seconds.
     dissipative: whether it can only take energy away.
@@ -48,6 +50,7 @@ class Effect:
     source: ClassVar[str]
     stage: ClassVar[Stage]
     kernel: ClassVar[Callable[..., Any]]
+    friction_kernel: ClassVar[Callable[..., Any] | None] = None
     states: ClassVar[int] = 0
     update: ClassVar[Callable[..., Any] | None] = None
     dissipative: ClassVar[bool] = False
@@ -81,6 +84,11 @@ class Effect:
     def moments(self) -> tuple[float, ...]:
         """When the kernel changes abruptly, in time of the run [s]: steps are cut there."""
         return ()
+
+    @property
+    def is_credible(self) -> bool:
+        """Whether robots have such values: a fit that ends elsewhere is about something else."""
+        return True
 
     @classmethod
     def starts(cls, drive: Excitation) -> tuple[tuple[float, ...], ...]:

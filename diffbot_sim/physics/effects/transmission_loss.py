@@ -16,6 +16,7 @@ def loaded(at: Motion, law: Law, loss: float) -> Law:
         law.side,
         law.direction,
         law.traction,
+        law.burden,
         law.static + more,
         law.coulomb + more,
         law.excess,
