@@ -59,15 +59,11 @@ def split(runs: Sequence[Run]) -> tuple[tuple[Stretch, ...], tuple[Stretch, ...]
 
 
 def thin(run: Run) -> Run:
-    """Average odometry and commands that are faster than their highest rates.
-
-    An average of commands is held from its first stamp on, so it gives the same impulse.
-    """
+    """Average odometry and commands that are faster than their highest rates."""
     given, seen = run.commands, run.odometry
     many, group = _surplus(given.time, HIGHEST_COMMAND_RATE), _surplus(seen.time, HIGHEST_RATE)
     if many > 1:
-        firsts = given.time[: len(given.time) // many * many : many]
-        run = replace(run, commands=Commands(firsts, _averaged(given.force, many)))
+        run = replace(run, commands=_held_longer(given, many))
     return averaged(run, group) if group > 1 else run
 
 
@@ -85,9 +81,25 @@ def largest_command(stretches: Sequence[Stretch]) -> float:
 
 
 def _surplus(time: Array, highest: float) -> int:
-    """Return how many samples become one at most at the highest rate [Hz]."""
-    interval = median_interval(time)
-    return int(1.0 / (interval * highest) + 0.5) if interval > 0.0 else 1
+    """Return how many samples become one at most at the highest rate [Hz].
+
+    Of the mean rate: stamps may come in twos, as those of wheels that are commanded one after the
+    other do.
+    """
+    lasting = float(time[-1] - time[0]) if len(time) > 1 else 0.0
+    return int((len(time) - 1) / (lasting * highest) + 0.5) if lasting > 0.0 else 1
+
+
+def _held_longer(given: Commands, many: int) -> Commands:
+    """Return commands of which so many have become one each, of the same impulse."""
+    lasting = np.diff(given.time)[:, None]
+    count = len(lasting) // many * many
+    impulse, held = (
+        values[:count].reshape(-1, many, values.shape[1]).sum(axis=1)
+        for values in (given.force[:-1] * lasting, lasting)
+    )
+    time = np.concatenate([given.time[:count:many], given.time[count:]])
+    return Commands(time, np.concatenate([impulse / held, given.force[count:]]))
 
 
 def median_interval(time: Array) -> float:
