@@ -13,6 +13,8 @@ from diffbot_sim.records import Array, Commands, Odometry, Run
 HIGHEST_RATE = 100.0
 # Commands too [Hz]: each is a step of the integrator.
 HIGHEST_COMMAND_RATE = 200.0
+# Commands that are nearer than this share of their mean interval are of one moment.
+AT_ONCE = 0.1
 # Share of each run that is fitted when no run is given for validation.
 FITTED_SHARE = 0.7
 # What a start is estimated from, and what is left out of fits after it [s].
@@ -60,10 +62,12 @@ def split(runs: Sequence[Run]) -> tuple[tuple[Stretch, ...], tuple[Stretch, ...]
 
 def thin(run: Run) -> Run:
     """Average odometry and commands that are faster than their highest rates."""
-    given, seen = run.commands, run.odometry
+    given, seen = _together(run.commands), run.odometry
     many, group = _surplus(given.time, HIGHEST_COMMAND_RATE), _surplus(seen.time, HIGHEST_RATE)
     if many > 1:
-        run = replace(run, commands=_held_longer(given, many))
+        given = _held_longer(given, many)
+    if given is not run.commands:
+        run = replace(run, commands=given)
     return averaged(run, group) if group > 1 else run
 
 
@@ -81,13 +85,20 @@ def largest_command(stretches: Sequence[Stretch]) -> float:
 
 
 def _surplus(time: Array, highest: float) -> int:
-    """Return how many samples become one at most at the highest rate [Hz].
+    """Return how many samples become one at most at the highest rate [Hz]."""
+    interval = _mean_interval(time)
+    return int(1.0 / (interval * highest) + 0.5) if interval > 0.0 else 1
 
-    Of the mean rate: stamps may come in twos, as those of wheels that are commanded one after the
-    other do.
-    """
-    lasting = float(time[-1] - time[0]) if len(time) > 1 else 0.0
-    return int((len(time) - 1) / (lasting * highest) + 0.5) if lasting > 0.0 else 1
+
+def _mean_interval(time: Array) -> float:
+    """Return the mean time between stamps [s]: unlike the median it bears stamps in twos."""
+    return float(time[-1] - time[0]) / (len(time) - 1) if len(time) > 1 else 1.0
+
+
+def _together(given: Commands) -> Commands:
+    """Return commands of which those of one tick, each wheel's with its own stamp, are one."""
+    last = np.append(np.diff(given.time) > AT_ONCE * _mean_interval(given.time), True)
+    return given if last.all() else Commands(given.time[last], given.force[last])
 
 
 def _held_longer(given: Commands, many: int) -> Commands:
