@@ -94,6 +94,16 @@ def test_differences_of_encoders_do_not_make_a_robot_late(with_pose: bool) -> No
     assert [it.lateness for it in answer.timings] == pytest.approx([0.01])
 
 
+def test_encoders_beside_a_gyro_do_not_make_a_robot_late() -> None:
+    run = driven(Model())
+    seen = counted(run, 1).odometry
+    at_once = np.isin(run.odometry.time, seen.time)
+    twist = np.column_stack([seen.twist[:, 0], run.odometry.twist[at_once, 1]])
+    answer = identify([replace(run, odometry=replace(seen, twist=twist))], Model())
+    assert answer.verdict == 'nothing_missing'
+    assert [(it.taken, it.lateness) for it in answer.timings] == [('speed', pytest.approx(0.01))]
+
+
 def test_true_pose_lets_a_delay_within_an_interval_be_named() -> None:
     answer = identify([driven(Model(effects=(ActuatorDelay(0.012),)))], Model())
     (effect,) = answer.effects

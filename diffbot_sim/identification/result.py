@@ -125,12 +125,13 @@ class Timing:
     """A run whose twists are older than their stamps.
 
     lateness: by how much [s]; taken: what was done: 'pose', taken from the pose instead; 'mean',
-    as means since the sample before; 'filter', as they were before a low-pass filter.
+    as means since the sample before, and 'speed', the speeds alone; 'filter', as they were before
+    a low-pass filter.
     """
 
     run: str
     lateness: float
-    taken: Literal['pose', 'mean', 'filter']
+    taken: Literal['pose', 'mean', 'speed', 'filter']
 
 
 @dataclass(frozen=True)

@@ -16,18 +16,28 @@ from diffbot_sim.identification.recordings.lateness import (
     lateness_of,
     may_be_of_interval_before,
     of_interval_before,
+    pose_allows_lag,
+    speed_of_interval_before,
     timely,
     timing,
 )
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch, split, whole
 from diffbot_sim.identification.result import Structure, Timing
-from diffbot_sim.identification.selection.evidence import delta_bic
+from diffbot_sim.identification.selection.evidence import delta_bic_of_both, delta_bic_of_speed
 from diffbot_sim.identification.selection.stepwise import INDISTINGUISHABLE, Selection, select
 from diffbot_sim.identification.selection.trials import Progress
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Run
+
+# How much lower the BIC of a second fit is than that of a first.
+Worth = Callable[[Fit, Fit], float]
+# What may be older than its stamps, how it is taken then, and what that is judged by.
+OLDER = (
+    ('twists', of_interval_before, delta_bic_of_both),
+    ('speeds', speed_of_interval_before, delta_bic_of_speed),
+)
 
 
 @dataclass(frozen=True)
@@ -84,12 +94,13 @@ def search(
     Raises DataError where the runs are too short or do not move.
     """
     found = _found(recordings.each(timely), declared, kinds, progress)
-    if all(may_be_of_interval_before(run, found.values) for run in found.recordings.learned):
-        progress('taking twists for means since the sample before')
-        older = _found(found.recordings.each(of_interval_before), declared, kinds, progress)
-        worth = delta_bic(found.selection.final, older.selection.final)
-        if worth > -INDISTINGUISHABLE and not lateness_of(older.values):
-            return older
+    for what, earlier, worth in OLDER:
+        if _may_be(found, earlier, worth):
+            progress(f'taking {what} for means since the sample before')
+            other = _found(found.recordings.each(earlier), declared, kinds, progress)
+            as_good = worth(found.selection.final, other.selection.final) > -INDISTINGUISHABLE
+            if as_good and not lateness_of(other.values):
+                return other
     # What is left of a filter may be held against the names that stand for it.
     time_constant = filter_behind(found.undoubted)
     if time_constant == 0.0:
@@ -99,15 +110,36 @@ def search(
     return replace(_found(undone, declared, kinds, progress), time_constant=time_constant)
 
 
+def _may_be(found: Found, earlier: Callable[[Run], Run], worth: Worth) -> bool:
+    """Say whether twists taken as older may make what was found needless.
+
+    So they may where the robot is found to be late by as little; or where something is told, and
+    the very structure that was found fits better then.
+    """
+    runs, final = found.recordings.learned, found.selection.final
+    if all(may_be_of_interval_before(run, found.values) for run in runs):
+        return True
+    told = bool(final.space.kinds) or found.unexplained is not None
+    if not told or lateness_of(found.values) or not all(map(pose_allows_lag, runs)):
+        return False
+    fitted, _ = _divided(found.recordings.each(earlier))
+    begun = restarted(final.model, fitted, MAX_STEP)
+    again = fit_prediction(final.space, begun, final.u, final.gains)
+    return worth(final, again) > INDISTINGUISHABLE
+
+
+def _divided(recordings: Recordings) -> tuple[tuple[Stretch, ...], tuple[Stretch, ...]]:
+    """Return the stretches that are fitted, and those that are held out."""
+    if recordings.validate:
+        return whole(recordings.learned), whole(recordings.validate)
+    return split(recordings.learned)
+
+
 def _found(
     recordings: Recordings, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
 ) -> Found:
     """Recalibrate, search, and doubt what was found."""
-    fitted, held_out = (
-        (whole(recordings.learned), whole(recordings.validate))
-        if recordings.validate
-        else split(recordings.learned)
-    )
+    fitted, held_out = _divided(recordings)
     _check(fitted)
     progress('calibrating the declared model')
     recalibrated = calibrate(Space(declared, ()), fitted)

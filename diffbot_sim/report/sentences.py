@@ -28,6 +28,8 @@ TIMINGS = {
     'pose': 'the twists are means over what the poses tell, {} late; that was used instead.',
     'mean': 'the twists were taken as {} older than their stamps, as means over the past are; if '
     'they are not, it is the robot that is so much late.',
+    'speed': 'the speeds alone were taken as {} older than their stamps, as those of encoders '
+    'beside a gyro are; if they are not, it is the robot that is so much late.',
     'filter': 'the twists were taken as they were before a low-pass filter with a time constant '
     'of {}: it explains them and their noise better than a robot that is late.',
 }

@@ -83,10 +83,13 @@ def timing(given: Run, taken: Run) -> Timing | None:
     """Return how a run was taken that had been given; None where it was taken as it is."""
     if taken is given:
         return None
-    if taken.odometry.twist is not given.odometry.twist:
-        return Timing(given.name, max(0.0, lag_behind_pose(given.odometry)), 'pose')
-    late = float(given.odometry.time[0] - taken.odometry.time[0])
-    return Timing(given.name, late, 'mean')
+    before, after = given.odometry, taken.odometry
+    late = float(before.time[0] - after.time[0])
+    if after.twist is before.twist:
+        return Timing(given.name, late, 'mean')
+    if np.array_equal(after.twist[:, 0], before.twist[:, 0]):
+        return Timing(given.name, late, 'speed')
+    return Timing(given.name, max(0.0, lag_behind_pose(before)), 'pose')
 
 
 def of_interval_before(run: Run) -> Run:
@@ -94,15 +97,24 @@ def of_interval_before(run: Run) -> Run:
     return earlier(run, 0.5 * median_interval(run.odometry.time))
 
 
-def may_be_of_interval_before(run: Run, values: Mapping[str, float]) -> bool:
-    """Say whether such odometry may be what makes a robot of these parameters look late.
+def speed_of_interval_before(run: Run) -> Run:
+    """Return a run whose speed alone was told so, and its turn rate by a gyro."""
+    seen, taken = run.odometry, of_interval_before(run).odometry
+    turning = np.interp(taken.time, seen.time, seen.twist[:, 1])
+    twist = np.column_stack([seen.twist[:, 0], turning])
+    return replace(run, odometry=replace(taken, twist=twist))
 
-    A pose that was not integrated from the twist would tell.
-    """
+
+def may_be_of_interval_before(run: Run, values: Mapping[str, float]) -> bool:
+    """Say whether such odometry may be what makes a robot of these parameters look late."""
     interval = median_interval(run.odometry.time)
-    if not 0.0 < lateness_of(values) < interval:
-        return False
-    return run.odometry.pose is None or lag_behind_pose(run.odometry) > 0.25 * interval
+    return 0.0 < lateness_of(values) < interval and pose_allows_lag(run)
+
+
+def pose_allows_lag(run: Run) -> bool:
+    """Say whether a twist may be late: a pose that was not integrated from it would tell."""
+    seen = run.odometry
+    return seen.pose is None or lag_behind_pose(seen) > 0.25 * median_interval(seen.time)
 
 
 def lateness_of(values: Mapping[str, float]) -> float:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import isnan, nan
+from math import inf, isnan, nan
 from operator import itemgetter
 
 import numpy as np
@@ -102,6 +102,23 @@ def delta_bic(first: Fit, second: Fit) -> float:
     sigma = np.minimum(first.sigma, second.sigma)
     fall = first.deviance(sigma) - second.deviance(sigma)
     return fall - (len(second.u) - len(first.u)) * float(np.log(second.whitened.size))
+
+
+def delta_bic_of_speed(first: Fit, second: Fit) -> float:
+    """Return the same for what is told of the speed; turn rates need not be the same data."""
+    return _delta_bic_of(0, first, second)
+
+
+def delta_bic_of_both(first: Fit, second: Fit) -> float:
+    """Return the same for what is told of speed or turn rate, whichever gains less."""
+    return min(_delta_bic_of(0, first, second), _delta_bic_of(1, first, second))
+
+
+def _delta_bic_of(axis: int, first: Fit, second: Fit) -> float:
+    sigma = np.full(2, inf)
+    sigma[axis] = min(first.sigma[axis], second.sigma[axis])
+    fall = first.deviance(sigma) - second.deviance(sigma)
+    return fall - (len(second.u) - len(first.u)) * float(np.log(len(second.whitened)))
 
 
 def held_out_gain(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> tuple[float, float]:
