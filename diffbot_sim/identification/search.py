@@ -14,7 +14,6 @@ from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.recordings.lateness import (
     lateness_of,
-    may_be_of_interval_before,
     of_interval_before,
     pose_allows_lag,
     speed_of_interval_before,
@@ -22,7 +21,7 @@ from diffbot_sim.identification.recordings.lateness import (
     timing,
 )
 from diffbot_sim.identification.recordings.start import restarted
-from diffbot_sim.identification.recordings.stretches import Stretch, split, whole
+from diffbot_sim.identification.recordings.stretches import Stretch, median_interval, split, whole
 from diffbot_sim.identification.result import Structure, Timing
 from diffbot_sim.identification.selection.evidence import delta_bic_of_both, delta_bic_of_speed
 from diffbot_sim.identification.selection.stepwise import INDISTINGUISHABLE, Selection, select
@@ -94,7 +93,9 @@ def search(
     Raises DataError where the runs are too short or do not move.
     """
     found = _found(recordings.each(timely), declared, kinds, progress)
-    for what, earlier, worth in OLDER:
+    told = found.selection.final.space.kinds or found.unexplained or lateness_of(found.values)
+    may_be_late = told and all(map(pose_allows_lag, found.recordings.learned))
+    for what, earlier, worth in OLDER if may_be_late else ():
         if _may_be(found, earlier, worth):
             progress(f'taking {what} for means since the sample before')
             other = _found(found.recordings.each(earlier), declared, kinds, progress)
@@ -113,15 +114,12 @@ def search(
 def _may_be(found: Found, earlier: Callable[[Run], Run], worth: Worth) -> bool:
     """Say whether twists taken as older may make what was found needless.
 
-    So they may where the robot is found to be late by as little; or where something is told, and
-    the very structure that was found fits better then.
+    So they may where the robot is found to be late by as little, or where the very structure that
+    was found fits better then.
     """
-    runs, final = found.recordings.learned, found.selection.final
-    if all(may_be_of_interval_before(run, found.values) for run in runs):
-        return True
-    told = bool(final.space.kinds) or found.unexplained is not None
-    if not told or lateness_of(found.values) or not all(map(pose_allows_lag, runs)):
-        return False
+    late, final = lateness_of(found.values), found.selection.final
+    if late > 0.0:
+        return late < min(median_interval(r.odometry.time) for r in found.recordings.learned)
     fitted, _ = _divided(found.recordings.each(earlier))
     begun = restarted(final.model, fitted, MAX_STEP)
     again = fit_prediction(final.space, begun, final.u, final.gains)

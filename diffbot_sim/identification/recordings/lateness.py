@@ -105,12 +105,6 @@ def speed_of_interval_before(run: Run) -> Run:
     return replace(run, odometry=replace(taken, twist=twist))
 
 
-def may_be_of_interval_before(run: Run, values: Mapping[str, float]) -> bool:
-    """Say whether such odometry may be what makes a robot of these parameters look late."""
-    interval = median_interval(run.odometry.time)
-    return 0.0 < lateness_of(values) < interval and pose_allows_lag(run)
-
-
 def pose_allows_lag(run: Run) -> bool:
     """Say whether a twist may be late: a pose that was not integrated from it would tell."""
     seen = run.odometry

@@ -99,9 +99,7 @@ def _added(small: Fit, large: Fit) -> tuple[list[int], list[int]]:
 
 def delta_bic(first: Fit, second: Fit) -> float:
     """Return how much lower the second's BIC is than the first's; they need not be nested."""
-    sigma = np.minimum(first.sigma, second.sigma)
-    fall = first.deviance(sigma) - second.deviance(sigma)
-    return fall - (len(second.u) - len(first.u)) * float(np.log(second.whitened.size))
+    return _delta_bic(first, second, np.minimum(first.sigma, second.sigma), second.whitened.size)
 
 
 def delta_bic_of_speed(first: Fit, second: Fit) -> float:
@@ -117,8 +115,12 @@ def delta_bic_of_both(first: Fit, second: Fit) -> float:
 def _delta_bic_of(axis: int, first: Fit, second: Fit) -> float:
     sigma = np.full(2, inf)
     sigma[axis] = min(first.sigma[axis], second.sigma[axis])
+    return _delta_bic(first, second, sigma, len(second.whitened))
+
+
+def _delta_bic(first: Fit, second: Fit, sigma: Array, samples: int) -> float:
     fall = first.deviance(sigma) - second.deviance(sigma)
-    return fall - (len(second.u) - len(first.u)) * float(np.log(len(second.whitened)))
+    return fall - (len(second.u) - len(first.u)) * float(np.log(samples))
 
 
 def held_out_gain(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> tuple[float, float]:
