@@ -27,11 +27,13 @@ class Odometry:
     time: stamps [s], shape (k,), increasing.
     twist: linear [m/s] and angular [rad/s] velocity, shape (k, 2).
     pose: x [m], y [m], yaw [rad, unwrapped], shape (k, 3); None where none was recorded.
+    means: whether v and ω are means since the sample before, as counted ways give them.
     """
 
     time: Array
     twist: Array
     pose: Array | None = None
+    means: tuple[bool, bool] = (False, False)
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ PACKAGE = 'diffbot_sim'
 FUNCTION = ast.FunctionDef | ast.AsyncFunctionDef
 
 FLOORS = {
-    1: {'records', 'parameters', 'errors'},
+    1: {'records', 'parameters', 'errors', 'standing'},
     2: {'physics', 'drives'},
     3: {'control', 'bags', 'tables', 'config'},
     4: {'identification', 'paper'},
@@ -33,7 +33,7 @@ STOREYS: list[set[str]] = [
     {'fitting'},
     {'selection'},
     {'free_forms', 'conclusions'},
-    {'doubt'},
+    {'doubt', 'older'},
     {'search'},
     {'identify'},
 ]

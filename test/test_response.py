@@ -18,11 +18,12 @@ TIME = np.arange(1000) / 50.0
 FORCE = 0.1
 
 
-def driven(model: Model, forces) -> Stretch:
+def driven(model: Model, forces, means=(False, False)) -> Stretch:
     """Return a drive by these forces, without noise."""
     commands = Commands(TIME, np.ascontiguousarray(forces))
     moved = simulate(model, commands, TIME)
-    (stretch,) = whole([Run('drive', commands, Odometry(TIME, moved.twist, moved.pose))])
+    told = Odometry(TIME, moved.twist, moved.pose, means)
+    (stretch,) = whole([Run('drive', commands, told)])
     return stretch
 
 
@@ -40,12 +41,13 @@ def difference(model: Model, stretch: Stretch, push):
     return (more - less) / (2.0 * FORCE)
 
 
+@pytest.mark.parametrize('means', [(False, False), (True, True), (True, False)])
 @pytest.mark.parametrize(
     'effects', [(), (Slope(0.02, 0.01), ActuatorLag(0.08)), (YawFriction(0.5),)]
 )
-def test_a_rolling_robot_answers_as_the_predictor_does(effects) -> None:
+def test_a_rolling_robot_answers_as_the_predictor_does(effects, means) -> None:
     model = Model(effects=effects)
-    stretch = driven(model, wandering(8.0) + np.array([2.0, -2.0]))
+    stretch = driven(model, wandering(8.0) + np.array([2.0, -2.0]), means)
     push = np.random.default_rng(1).normal(size=(1000, 2)).cumsum(axis=0) / 30.0
     linear = response(model, stretch, FIRST_GAINS, FORCE).errors(push[..., None])[..., 0]
     wanted = difference(model, stretch, push)

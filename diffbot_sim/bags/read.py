@@ -8,11 +8,11 @@ import numpy as np
 
 from diffbot_sim.bags.messages import yaw
 from diffbot_sim.bags.series import NANOSECONDS, Ordered, Series, Stamps, held, ordered
-from diffbot_sim.bags.standing import turning
 from diffbot_sim.bags.storage import read_series
 from diffbot_sim.bags.topics import Topics
 from diffbot_sim.errors import BagError
 from diffbot_sim.records import Array, Commands, Odometry, Run
+from diffbot_sim.standing import turning
 
 FEWEST = 50
 # A hole in the odometry is longer than this [s], and than this many usual intervals.
@@ -103,10 +103,10 @@ def _notes(
 
 
 def _of_standing(run: Run) -> list[str]:
-    rate = turning(run)
-    told = f'{run.name}: odometry turns by {rate:.4f} rad/s while the robot stands'
-    advice = 'take the bias of its gyro off before you identify, or it may pass for an effect'
-    return [f'{told}; {advice}'] if rate else []
+    seen = turning(run)
+    told = f'{run.name}: odometry turns by {seen.rate:.4f} rad/s while the robot stands'
+    advice = 'identify takes that off as the bias of a gyro, nothing else does'
+    return [f'{told}; {advice}'] if seen.is_told else []
 
 
 def _holes(usable: Mapping[str, Ordered]) -> list[str]:

@@ -11,6 +11,8 @@ from diffbot_sim.identification.conclusions.horizons import horizons
 from diffbot_sim.identification.conclusions.uncertainty import estimates
 from diffbot_sim.identification.fitting.calibration import simulation_error
 from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
+from diffbot_sim.identification.recordings.gyro import bias_of, unbiased
+from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
     NOTHING_MISSING,
@@ -21,7 +23,7 @@ from diffbot_sim.identification.result import (
     Identification,
     Structure,
 )
-from diffbot_sim.identification.search import Recordings, search
+from diffbot_sim.identification.search import search
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import Progress, Trial
 from diffbot_sim.physics.effects import Effect, laws, library
@@ -46,7 +48,9 @@ def identify(
     out. kinds: the effects to try, by default the whole library. Raises DataError where the
     runs are too short or do not move.
     """
-    recordings = Recordings(tuple(runs), tuple(validate))
+    given = Recordings(tuple(runs), tuple(validate))
+    recordings = given.each(unbiased)
+    pairs = zip(given.all, recordings.all, strict=True)
     found = search(recordings, declared, _candidates(declared, kinds), progress)
     selection, unexplained, held_out = found.selection, found.unexplained, found.held_out
     final = _for_simulation(selection, found.recalibrated)
@@ -74,6 +78,7 @@ def identify(
         horizons=horizons(models, watched, held_out, errors),
         runs=agreement(selection.final, found.recordings.all),
         timings=found.timings(recordings),
+        biases=tuple(filter(None, (bias_of(one, other) for one, other in pairs))),
     )
 
 

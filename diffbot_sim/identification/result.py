@@ -135,6 +135,17 @@ class Timing:
 
 
 @dataclass(frozen=True)
+class Bias:
+    """A run whose odometry turns while the robot stands.
+
+    rate: how fast [rad/s]; so much was taken off all its turn rates.
+    """
+
+    run: str
+    rate: float
+
+
+@dataclass(frozen=True)
 class Difference:
     """A parameter of which a run says something else than the other runs."""
 
@@ -187,7 +198,8 @@ class Identification:
     """The whole answer.
 
     empirical: the table in `identified` that stands for what is unexplained, if it simulates
-    better with it; timings: of runs whose twists were not taken as they were stamped.
+    better with it; timings: of runs whose twists were not taken as they were stamped; biases: of
+    runs whose turn rates were not taken as they were told.
     """
 
     verdict: str
@@ -205,3 +217,4 @@ class Identification:
     horizons: tuple[Horizon, ...] = ()
     runs: tuple[RunCheck, ...] = ()
     timings: tuple[Timing, ...] = ()
+    biases: tuple[Bias, ...] = ()

@@ -1,6 +1,6 @@
 """The search: from recordings and a declared model to a structure that explains them."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -12,48 +12,16 @@ from diffbot_sim.identification.fitting.filtering import filter_behind, unfilter
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.fitting.shaking import shaken
-from diffbot_sim.identification.recordings.lateness import (
-    lateness_of,
-    of_interval_before,
-    pose_allows_lag,
-    speed_of_interval_before,
-    timely,
-    timing,
-)
+from diffbot_sim.identification.older import is_taken, likely
+from diffbot_sim.identification.recordings.lateness import timely, timing
+from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
-from diffbot_sim.identification.recordings.stretches import Stretch, median_interval, split, whole
+from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure, Timing
-from diffbot_sim.identification.selection.evidence import delta_bic_of_both, delta_bic_of_speed
-from diffbot_sim.identification.selection.stepwise import INDISTINGUISHABLE, Selection, select
+from diffbot_sim.identification.selection.stepwise import Selection, select
 from diffbot_sim.identification.selection.trials import Progress
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.model import Model
-from diffbot_sim.records import Run
-
-# How much lower the BIC of a second fit is than that of a first.
-Worth = Callable[[Fit, Fit], float]
-# What may be older than its stamps, how it is taken then, and what that is judged by.
-OLDER = (
-    ('twists', of_interval_before, delta_bic_of_both),
-    ('speeds', speed_of_interval_before, delta_bic_of_speed),
-)
-
-
-@dataclass(frozen=True)
-class Recordings:
-    """Runs to learn from; runs to validate with, or none: then parts of the first are held out."""
-
-    learned: tuple[Run, ...]
-    validate: tuple[Run, ...]
-
-    @property
-    def all(self) -> tuple[Run, ...]:
-        """All runs."""
-        return self.learned + self.validate
-
-    def each(self, change: Callable[[Run], Run]) -> 'Recordings':
-        """Return the recordings with each run changed."""
-        return Recordings(tuple(map(change, self.learned)), tuple(map(change, self.validate)))
 
 
 @dataclass(frozen=True)
@@ -72,11 +40,6 @@ class Found:
     unexplained: Structure | None
     time_constant: float = 0.0
 
-    @property
-    def values(self) -> dict[str, float]:
-        """The parameters of the structure."""
-        return self.selection.final.space.values(self.selection.final.u)
-
     def timings(self, given: Recordings) -> tuple[Timing, ...]:
         """Return how recordings were taken otherwise than they had been given."""
         if self.time_constant > 0.0:
@@ -93,15 +56,12 @@ def search(
     Raises DataError where the runs are too short or do not move.
     """
     found = _found(recordings.each(timely), declared, kinds, progress)
-    told = found.selection.final.space.kinds or found.unexplained or lateness_of(found.values)
-    may_be_late = told and all(map(pose_allows_lag, found.recordings.learned))
-    for what, earlier, worth in OLDER if may_be_late else ():
-        if _may_be(found, earlier, worth):
-            progress(f'taking {what} for means since the sample before')
-            other = _found(found.recordings.each(earlier), declared, kinds, progress)
-            as_good = worth(found.selection.final, other.selection.final) > -INDISTINGUISHABLE
-            if as_good and not lateness_of(other.values):
-                return other
+    told = found.selection.final.space.kinds or found.unexplained
+    for older in likely(found.selection.final, found.recordings) if told else ():
+        progress(f'taking {older.what} for means since the sample before')
+        other = _found(found.recordings.each(older.taken), declared, kinds, progress)
+        if is_taken(older, found.selection.final, other.selection.final):
+            return other
     # What is left of a filter may be held against the names that stand for it.
     time_constant = filter_behind(found.undoubted)
     if time_constant == 0.0:
@@ -111,33 +71,11 @@ def search(
     return replace(_found(undone, declared, kinds, progress), time_constant=time_constant)
 
 
-def _may_be(found: Found, earlier: Callable[[Run], Run], worth: Worth) -> bool:
-    """Say whether twists taken as older may make what was found needless.
-
-    So they may where the robot is found to be late by as little, or where the very structure that
-    was found fits better then.
-    """
-    late, final = lateness_of(found.values), found.selection.final
-    if late > 0.0:
-        return late < min(median_interval(r.odometry.time) for r in found.recordings.learned)
-    fitted, _ = _divided(found.recordings.each(earlier))
-    begun = restarted(final.model, fitted, MAX_STEP)
-    again = fit_prediction(final.space, begun, final.u, final.gains)
-    return worth(final, again) > INDISTINGUISHABLE
-
-
-def _divided(recordings: Recordings) -> tuple[tuple[Stretch, ...], tuple[Stretch, ...]]:
-    """Return the stretches that are fitted, and those that are held out."""
-    if recordings.validate:
-        return whole(recordings.learned), whole(recordings.validate)
-    return split(recordings.learned)
-
-
 def _found(
     recordings: Recordings, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
 ) -> Found:
     """Recalibrate, search, and doubt what was found."""
-    fitted, held_out = _divided(recordings)
+    fitted, held_out = recordings.divided
     _check(fitted)
     progress('calibrating the declared model')
     recalibrated = calibrate(Space(declared, ()), fitted)

@@ -41,6 +41,7 @@ def as_dict(result: Identification) -> dict[str, Any]:
         'horizons': [asdict(horizon) for horizon in result.horizons],
         'runs': _runs(result),
         'timings': [asdict(timing) for timing in result.timings],
+        'biases': [asdict(bias) for bias in result.biases],
     }
 
 

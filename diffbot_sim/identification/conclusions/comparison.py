@@ -5,12 +5,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, predictions
+from diffbot_sim.identification.recordings.measurement import simulated
 from diffbot_sim.identification.recordings.start import start_of
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Comparison, ErrorNorm, Errors
 from diffbot_sim.identification.statistics.norms import noise_floor, norm
-from diffbot_sim.physics import simulate
-from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Trajectory
 
@@ -20,7 +19,7 @@ MAX_STEP = 0.005
 def run_free(model: Model, stretch: Stretch) -> Trajectory:
     """Simulate a stretch from its first state with the recorded forces alone."""
     start = start_of(model, stretch, MAX_STEP)
-    return simulate(embedded(model), stretch.run.commands, stretch.time, start, MAX_STEP)
+    return simulated(model, stretch, stretch.time, start, MAX_STEP)
 
 
 def compare_models(

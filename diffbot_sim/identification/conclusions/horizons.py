@@ -13,12 +13,11 @@ from numpy.typing import NDArray
 
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.predictor import MAX_STEP, predict
+from diffbot_sim.identification.recordings.measurement import simulated
 from diffbot_sim.identification.recordings.start import WINDOW
 from diffbot_sim.identification.recordings.stretches import Stretch, integral
 from diffbot_sim.identification.result import Errors, Horizon
 from diffbot_sim.identification.statistics.norms import norm
-from diffbot_sim.physics import simulate
-from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array
@@ -77,7 +76,7 @@ def _restarted(models: Sequence[Model], final: Fit, held_out: Sequence[Stretch])
 
 def _errors(models: Sequence[Model], final: Fit, stretch: Stretch, spacing: float) -> Array:
     """Return measured - simulated twist: restarts × models × AHEAD × (v, ω); NaN past the end."""
-    time, wholes = stretch.time, [embedded(model) for model in models]
+    time = stretch.time
     speeds = predict(final.model, stretch, final.gains).twist
     moments = np.searchsorted(time, np.arange(time[0] + WINDOW, time[-1] - AHEAD[0], spacing))
     errors = np.full((len(moments), len(models), len(AHEAD), 2), np.nan)
@@ -85,9 +84,12 @@ def _errors(models: Sequence[Model], final: Fit, stretch: Stretch, spacing: floa
         start = state_at(stretch, speeds, moment)
         ends = np.searchsorted(time, time[moment] + np.array(AHEAD) - 1e-6)
         ends = ends[ends < len(time)]
-        for column, model in enumerate(wholes):
-            run = simulate(model, stretch.run.commands, time[[moment, *ends]], start, MAX_STEP)
-            errors[row, column, : len(ends)] = stretch.twist[ends] - run.twist[1:]
+        # What is told at an end may be a mean since the sample before.
+        stamps = np.unique([moment, *(ends - 1), *ends])
+        for column, model in enumerate(models):
+            run = simulated(model, stretch, time[stamps], start, MAX_STEP)
+            at_ends = run.twist[np.searchsorted(stamps, ends)]
+            errors[row, column, : len(ends)] = stretch.twist[ends] - at_ends
     return errors
 
 

@@ -18,7 +18,7 @@ from diffbot_sim.identification.recordings.lateness import LATE
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.memory import unforeseen
-from diffbot_sim.records import Array, Odometry, Run
+from diffbot_sim.records import Array, Run
 
 # Twice a log-likelihood that is so much higher is no chance.
 CLEAR = 10.0
@@ -30,7 +30,7 @@ def unfiltered(run: Run, time_constant: float) -> Run:
     """Return a run with its twists as they were before a first-order filter [s]."""
     seen = run.odometry
     twist = _undone(seen.time, seen.twist, time_constant)
-    return replace(run, odometry=Odometry(seen.time, twist, seen.pose))
+    return replace(run, odometry=replace(seen, twist=twist))
 
 
 def filter_behind(fit: Fit) -> float:

@@ -16,6 +16,7 @@ from diffbot_sim.physics.compiled import entry
 from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
 from diffbot_sim.physics.correction import correct
 from diffbot_sim.physics.embedding import embedded
+from diffbot_sim.physics.encoders import measured, twist_of, way_of
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.simulation import (
@@ -31,7 +32,7 @@ from diffbot_sim.physics.simulation import (
     workspace,
 )
 from diffbot_sim.physics.snapshot import keep, snapshot_size
-from diffbot_sim.physics.vector import HEADING, SPEED_LEFT, SPEED_RIGHT
+from diffbot_sim.physics.vector import HEADING
 from diffbot_sim.records import Array
 
 # Longest integration step [s]; fourth order keeps its error far below any odometry's noise.
@@ -44,13 +45,15 @@ NO_GAIN = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 class Prediction:
     """Errors of the one-step prediction, and what the predictor held to be true.
 
-    innovation: measured - predicted twist, shape (k, 2); twist: corrected, shape (k, 2);
-    disturbance: estimated force [N] and torque [N·m] on the body, shape (k, 2); snapshots: what
-    the next step sets out from, a row for each sample.
+    innovation: measured - predicted twist, shape (k, 2); twist: of the moment, corrected, shape
+    (k, 2); foreseen: the same before its correction; disturbance: estimated force [N] and torque
+    [N·m] on the body, shape (k, 2); snapshots: what the next step sets out from, a row for each
+    sample.
     """
 
     innovation: Array
     twist: Array
+    foreseen: Array
     disturbance: Array
     snapshots: Array
 
@@ -64,7 +67,7 @@ def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = N
     count, model = len(stretch.time), embedded(model)
     commands = scheduled(model, stretch.run.commands)
     states = initial_states(model, commands, float(stretch.time[0]))
-    out, snapshots = np.zeros((count, 6)), np.empty((count, snapshot_size(states)))
+    out, snapshots = np.zeros((count, 8)), np.empty((count, snapshot_size(states)))
     _predict(
         *compose(tuple(type(effect) for effect in model.effects)),
         model.pack(),
@@ -75,6 +78,7 @@ def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = N
         MAX_STEP,
         np.ascontiguousarray(stretch.time),
         np.ascontiguousarray(stretch.twist),
+        np.array(stretch.run.odometry.means, dtype=float),
         stretch.heading,
         np.ascontiguousarray(gains),
         np.zeros((count, 2)) if push is None else np.ascontiguousarray(push),
@@ -82,14 +86,14 @@ def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = N
         out,
         snapshots,
     )
-    return Prediction(out[:, 0:2], out[:, 2:4], out[:, 4:6], snapshots)
+    return Prediction(out[:, 0:2], out[:, 2:4], out[:, 6:8], out[:, 4:6], snapshots)
 
 
 @entry(
     types.void(
         *FUNCTION_TYPES,
         *(ARRAY, ARRAY, ARRAY, ARRAY, MATRIX, types.float64),
-        *(ARRAY, MATRIX, ARRAY, ARRAY, MATRIX, INTEGERS, MATRIX, MATRIX, MATRIX),
+        *(ARRAY, MATRIX, ARRAY, ARRAY, ARRAY, MATRIX, INTEGERS, MATRIX, MATRIX, MATRIX),
     )
 )
 def _predict(  # type: ignore[no-untyped-def]
@@ -103,6 +107,7 @@ def _predict(  # type: ignore[no-untyped-def]
     max_step,
     times,
     twist,
+    means,
     heading,
     gains,
     push,
@@ -111,7 +116,7 @@ def _predict(  # type: ignore[no-untyped-def]
     out,
     snapshots,
 ) -> None:
-    """Fill out: innovation, corrected twist, disturbance; and a snapshot after each sample."""
+    """Fill out: innovation, corrected twist, disturbance, twist before; and the snapshots."""
     drive, b = Drive(command_time, force, max_step), params[2]
     current = command_at(drive, -1, times[0])
     initial_modes(laws, params, states, z, modes, inputs_of(drive, current, 0.0, 0.0), times[0])
@@ -119,6 +124,7 @@ def _predict(  # type: ignore[no-untyped-def]
     for k, time in enumerate(times):
         if k > 0:
             acting = (pushing + push[k - 1, 0], turning + push[k - 1, 1])
+            before = way_of(params, z)
             current = advance_held(
                 laws,
                 settle,
@@ -134,16 +140,18 @@ def _predict(  # type: ignore[no-untyped-def]
                 work,
             )
             interval = time - times[k - 1]
-            error_v = twist[k, 0] - 0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT])
-            error_omega = twist[k, 1] - (z[SPEED_RIGHT] - z[SPEED_LEFT]) / (2.0 * b)
+            v, omega = measured(params, means, z, before, interval)
+            error_v, error_omega = twist[k, 0] - v, twist[k, 1] - omega
             out[k, 0], out[k, 1] = error_v, error_omega
+            # What a force did all the while is at the end twice what it is on the mean.
+            error_v, error_omega = (1.0 + means[0]) * error_v, (1.0 + means[1]) * error_omega
+            out[k, 6], out[k, 7] = twist_of(params, z)
             correct(z, modes, b, gains[0] * error_v, gains[3] * error_omega)
             pushing *= gains[2] ** interval
             turning *= gains[5] ** interval
             pushing += gains[1] * params[0] / interval * error_v
             turning += gains[4] * params[1] / interval * error_omega
         z[HEADING] = heading[k]
-        out[k, 2] = 0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT])
-        out[k, 3] = (z[SPEED_RIGHT] - z[SPEED_LEFT]) / (2.0 * b)
+        out[k, 2], out[k, 3] = twist_of(params, z)
         out[k, 4], out[k, 5] = pushing, turning
         keep(z, modes, states, snapshots[k])

@@ -14,11 +14,12 @@ from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.predictor import MAX_STEP, Prediction, predict
 from diffbot_sim.identification.recordings.stretches import Stretch, largest_command
 from diffbot_sim.identification.statistics.parallel import each
-from diffbot_sim.physics.compiled import entry
+from diffbot_sim.physics.compiled import compiled, entry
 from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
 from diffbot_sim.physics.contact import Modes
 from diffbot_sim.physics.correction import correct
 from diffbot_sim.physics.embedding import embedded
+from diffbot_sim.physics.encoders import measured, twist_of, way_of
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.simulation import (
@@ -30,7 +31,7 @@ from diffbot_sim.physics.simulation import (
     workspace,
 )
 from diffbot_sim.physics.snapshot import restore
-from diffbot_sim.physics.vector import SPEED_LEFT, SPEED_RIGHT, STATE_SIZE
+from diffbot_sim.physics.vector import STATE_SIZE
 from diffbot_sim.records import Array
 
 # Differences are of the size of this share of the largest command.
@@ -42,15 +43,16 @@ CUBE = types.Array(types.float64, 3, 'C')
 class Response:
     """Steps of a prediction made linear, and what its noise model does between them.
 
-    steps, shape (k, 2, 4): derivative of each predicted twist by the twist one sample before, as
-    corrected, and by a force [N] and torque [N·m] on the body in between; kept, shape (2,): share
-    of a predicted twist that its correction leaves; gain, shape (k, 2): force and torque that an
+    steps, shape (k, 4, 4): derivative of the twist that is predicted to be measured, and of the
+    twist at that moment, by the twist one sample before, as corrected, and by a force [N] and
+    torque [N·m] on the body in between; taken, shape (2,): share of an error by which the twist is
+    corrected; gain, shape (k, 2): force and torque that an
     error adds to the disturbance; memory, shape (k, 2): share of it that is left from the sample
     before.
     """
 
     steps: Array
-    kept: Array
+    taken: Array
     gain: Array
     memory: Array
 
@@ -60,7 +62,7 @@ class Response:
         Each acts from its sample to the next.
         """
         out = np.zeros(pushes.shape)
-        _carry(self.steps, self.kept, self.gain, self.memory, np.ascontiguousarray(pushes), out)
+        _carry(self.steps, self.taken, self.gain, self.memory, np.ascontiguousarray(pushes), out)
         return out
 
 
@@ -75,7 +77,8 @@ def response(model: Model, stretch: Stretch, gains: Array, force: float) -> Resp
     model, count = embedded(model), len(stretch.time)
     before = predict(model, stretch, gains)
     commands = scheduled(model, stretch.run.commands)
-    params, steps = model.pack(), np.zeros((count, 2, 4))
+    params, steps = model.pack(), np.zeros((count, 4, 4))
+    means = np.array(stretch.run.odometry.means, dtype=float)
     body = params[:2]
     push = force * np.array([1.0, model.half_separation])
     intervals = np.diff(stretch.time, prepend=stretch.time[0] - stretch.interval)[:, None]
@@ -88,13 +91,15 @@ def response(model: Model, stretch: Stretch, gains: Array, force: float) -> Resp
         np.ascontiguousarray(stretch.time),
         np.diag(np.concatenate([push * stretch.interval / body, push])),
         np.ascontiguousarray(before.disturbance),
-        np.ascontiguousarray(stretch.twist - before.innovation),
+        np.hstack([stretch.twist - before.innovation, before.foreseen]),
+        means,
         before.snapshots,
         *_place(before),
         steps,
     )
-    gain = gains[[1, 4]] * body / intervals
-    return Response(steps, 1.0 - gains[[0, 3]], gain, gains[[2, 5]] ** intervals)
+    at_end = 1.0 + means
+    gain = gains[[1, 4]] * at_end * body / intervals
+    return Response(steps, gains[[0, 3]] * at_end, gain, gains[[2, 5]] ** intervals)
 
 
 def _place(prediction: Prediction) -> tuple[Array, Array, Modes, Array]:
@@ -107,7 +112,7 @@ def _place(prediction: Prediction) -> tuple[Array, Array, Modes, Array]:
 @entry(
     types.void(
         *FUNCTION_TYPES,
-        *(ARRAY, ARRAY, MATRIX, types.float64, ARRAY, MATRIX, MATRIX, MATRIX, MATRIX),
+        *(ARRAY, ARRAY, MATRIX, types.float64, ARRAY, MATRIX, MATRIX, MATRIX, ARRAY, MATRIX),
         *(ARRAY, ARRAY, INTEGERS, MATRIX, CUBE),
     )
 )
@@ -122,6 +127,7 @@ def _difference(  # type: ignore[no-untyped-def]
     changes,
     disturbance,
     predicted,
+    means,
     snapshots,
     z,
     states,
@@ -136,7 +142,7 @@ def _difference(  # type: ignore[no-untyped-def]
         for column in range(4):
             for side in (1.0, -1.0):
                 restore(snapshots[k - 1], z, modes, states)
-                by = changes[column]
+                by, way = changes[column], way_of(params, z)
                 correct(z, modes, b, side * by[0], side * by[1])
                 push = disturbance[k - 1]
                 acting = (push[0] + side * by[2], push[1] + side * by[3])
@@ -154,28 +160,32 @@ def _difference(  # type: ignore[no-untyped-def]
                     times[k],
                     work,
                 )
-                size = side * by[column]
-                v = (0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT]) - predicted[k, 0]) / size
-                omega = ((z[SPEED_RIGHT] - z[SPEED_LEFT]) / (2.0 * b) - predicted[k, 1]) / size
-                if side > 0.0 or abs(v) < abs(steps[k, 0, column]):
-                    steps[k, 0, column] = v
-                if side > 0.0 or abs(omega) < abs(steps[k, 1, column]):
-                    steps[k, 1, column] = omega
+                told = measured(params, means, z, way, times[k] - times[k - 1])
+                for row, value in enumerate((*told, *twist_of(params, z))):
+                    slope = (value - predicted[k, row]) / (side * by[column])
+                    if side > 0.0 or abs(slope) < abs(steps[k, row, column]):
+                        steps[k, row, column] = slope
+
+
+@compiled
+def _along(slopes: Array, v: float, omega: float, force: float, torque: float) -> float:
+    return float(slopes[0] * v + slopes[1] * omega + slopes[2] * force + slopes[3] * torque)
 
 
 @entry(types.void(CUBE, ARRAY, MATRIX, MATRIX, CUBE, CUBE))
 def _carry(  # type: ignore[no-untyped-def]
-    steps, kept, gain, memory, pushes, out
+    steps, taken, gain, memory, pushes, out
 ) -> None:
     """Fill out: what each push, carried on from step to step, adds to the errors."""
     for q in range(pushes.shape[2]):
         v, omega, pushing, turning = 0.0, 0.0, 0.0, 0.0
         for k in range(1, len(steps)):
             force, torque = pushing + pushes[k - 1, 0, q], turning + pushes[k - 1, 1, q]
-            step = steps[k]
-            more_v = step[0, 0] * v + step[0, 1] * omega + step[0, 2] * force + step[0, 3] * torque
-            more = step[1, 0] * v + step[1, 1] * omega + step[1, 2] * force + step[1, 3] * torque
-            out[k, 0, q], out[k, 1, q] = -more_v, -more
-            v, omega = kept[0] * more_v, kept[1] * more
-            pushing = memory[k, 0] * pushing - gain[k, 0] * more_v
-            turning = memory[k, 1] * turning - gain[k, 1] * more
+            told_v = _along(steps[k, 0], v, omega, force, torque)
+            told = _along(steps[k, 1], v, omega, force, torque)
+            out[k, 0, q], out[k, 1, q] = -told_v, -told
+            now_v = _along(steps[k, 2], v, omega, force, torque)
+            now = _along(steps[k, 3], v, omega, force, torque)
+            v, omega = now_v - taken[0] * told_v, now - taken[1] * told
+            pushing = memory[k, 0] * pushing - gain[k, 0] * told_v
+            turning = memory[k, 1] * turning - gain[k, 1] * told

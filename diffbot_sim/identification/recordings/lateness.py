@@ -7,7 +7,7 @@ rolling mean or a filter makes it later still. Both look like actuators that are
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -20,6 +20,7 @@ from diffbot_sim.records import Array, Odometry, Run
 
 # What makes a robot late: parameters whose sum is how late it is [s].
 LATE = ('actuator_delay.time', 'actuator_lag.time_constant')
+LATE_EFFECTS = tuple(name.partition('.')[0] for name in LATE)
 # Longest lag behind the pose [s] that is looked for, and grid points in an interval.
 LONGEST, FINENESS = 0.5, 4
 # A shorter run [s] does not tell it.
@@ -30,8 +31,6 @@ ALIKE = 0.3
 BEYOND_CHANCE = 50.0
 # The share of noise in a pose's changes up to which they tell more than a late twist.
 CLEAR = 0.1
-# Samples that are so many intervals apart have a hole between them.
-HOLE = 1.5
 # A speed [m/s, rad/s] that is as good as none.
 TINY = 1e-9
 
@@ -65,18 +64,12 @@ def _length_of_mean(odometry: Odometry) -> int:
 
 
 def as_pose_moves(run: Run) -> Run:
-    """Return a run whose twist is the change of the pose, told in the middle of each interval.
-
-    Not across holes: there a mean hides what happened.
-    """
+    """Return a run whose twist is the mean change of the pose since the sample before."""
     seen = run.odometry
     if seen.pose is None:
         return run
-    apart = np.diff(seen.time)
-    kept = apart < HOLE * median_interval(seen.time)
-    twist = np.diff(_path(seen.pose), axis=0) / apart[:, None]
-    time, pose = (0.5 * (values[1:] + values[:-1]) for values in (seen.time, seen.pose))
-    return replace(run, odometry=Odometry(time[kept], twist[kept], pose[kept]))
+    twist = np.diff(path_of(seen.pose), axis=0) / np.diff(seen.time)[:, None]
+    return replace(run, odometry=Odometry(seen.time[1:], twist, seen.pose[1:], (True, True)))
 
 
 def timing(given: Run, taken: Run) -> Timing | None:
@@ -84,30 +77,27 @@ def timing(given: Run, taken: Run) -> Timing | None:
     if taken is given:
         return None
     before, after = given.odometry, taken.odometry
-    late = float(before.time[0] - after.time[0])
-    if after.twist is before.twist:
-        return Timing(given.name, late, 'mean')
-    if np.array_equal(after.twist[:, 0], before.twist[:, 0]):
-        return Timing(given.name, late, 'speed')
-    return Timing(given.name, max(0.0, lag_behind_pose(before)), 'pose')
+    if after.twist is not before.twist:
+        return Timing(given.name, max(0.0, lag_behind_pose(before)), 'pose')
+    what: Literal['mean', 'speed'] = 'mean' if all(after.means) else 'speed'
+    return Timing(given.name, 0.5 * median_interval(before.time), what)
 
 
 def of_interval_before(run: Run) -> Run:
-    """Return a run whose twist was told as the mean since the sample before."""
-    return earlier(run, 0.5 * median_interval(run.odometry.time))
+    """Return a run whose twist is taken for the mean since the sample before."""
+    return replace(run, odometry=replace(run.odometry, means=(True, True)))
 
 
 def speed_of_interval_before(run: Run) -> Run:
-    """Return a run whose speed alone was told so, and its turn rate by a gyro."""
-    seen, taken = run.odometry, of_interval_before(run).odometry
-    turning = np.interp(taken.time, seen.time, seen.twist[:, 1])
-    twist = np.column_stack([seen.twist[:, 0], turning])
-    return replace(run, odometry=replace(taken, twist=twist))
+    """Return a run whose speed alone is taken for that, its turn rate for a gyro's."""
+    return replace(run, odometry=replace(run.odometry, means=(True, False)))
 
 
 def pose_allows_lag(run: Run) -> bool:
     """Say whether a twist may be late: a pose that was not integrated from it would tell."""
     seen = run.odometry
+    if all(seen.means):
+        return False
     return seen.pose is None or lag_behind_pose(seen) > 0.25 * median_interval(seen.time)
 
 
@@ -116,22 +106,12 @@ def lateness_of(values: Mapping[str, float]) -> float:
     return sum(values.get(name, 0.0) for name in LATE)
 
 
-def earlier(run: Run, late: float) -> Run:
-    """Return a run with stamps of the odometry so much earlier [s], its pose as it was then."""
-    seen = run.odometry
-    time = seen.time - late
-    pose = seen.pose
-    if pose is not None:
-        pose = np.column_stack([np.interp(time, seen.time, column) for column in pose.T])
-    return replace(run, odometry=Odometry(time, seen.twist, pose))
-
-
 def lag_behind_pose(odometry: Odometry) -> float:
     """Return by how much the twist lags the change of the pose [s]; 0 where that is not sure."""
     if odometry.pose is None or odometry.time[-1] - odometry.time[0] < SHORTEST:
         return 0.0
     step = median_interval(odometry.time) / FINENESS
-    misfit = partial(_misfit, odometry, _path(odometry.pose))
+    misfit = partial(_misfit, odometry, path_of(odometry.pose))
     lags = np.arange(-FINENESS, LONGEST / step) * step
     best = float(lags[int(np.argmin([misfit(lag).cost for lag in lags]))])
     found = minimize_scalar(
@@ -163,7 +143,7 @@ def _misfit(odometry: Odometry, path: Array, lag: float) -> _Misfit:
     return _Misfit(len(at) * float(np.log(errors).sum()), float(np.sqrt(errors / whole).min()))
 
 
-def _path(pose: Array) -> Array:
+def path_of(pose: Array) -> Array:
     """Return way ahead [m] and heading [rad], shape (k, 2), from poses (k, 3)."""
     step, middle = np.diff(pose, axis=0), 0.5 * (pose[1:, 2] + pose[:-1, 2])
     ahead = step[:, 0] * np.cos(middle) + step[:, 1] * np.sin(middle)

@@ -6,9 +6,8 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import least_squares
 
+from diffbot_sim.identification.recordings.measurement import simulated
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.physics import simulate
-from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array
@@ -30,11 +29,10 @@ def start_of(model: Model, stretch: Stretch, max_step: float) -> State:
     count = max(10, int(np.searchsorted(stretch.time, stretch.time[0] + WINDOW)))
     time, twist = stretch.time[:count], stretch.twist[:count]
     noise = np.std(np.diff(twist, n=2, axis=0), axis=0) / np.sqrt(6.0) + 1e-9
-    whole = embedded(model)
 
     def errors(twist_at_start: Array) -> Array:
         start = replace(first, v=float(twist_at_start[0]), omega=float(twist_at_start[1]))
-        run = simulate(whole, stretch.run.commands, time, start, max_step)
+        run = simulated(model, stretch, time, start, max_step)
         return np.asarray(((twist - run.twist) / noise).ravel())
 
     guess = np.array([first.v, first.omega])

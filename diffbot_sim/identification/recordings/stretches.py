@@ -72,11 +72,27 @@ def thin(run: Run) -> Run:
 
 
 def averaged(run: Run, group: int) -> Run:
-    """Return a run of which so many odometry samples have become one each."""
+    """Return a run of which so many odometry samples have become one each.
+
+    What is a mean since the sample before stays one; all else is of the middle of the samples.
+    """
     seen = run.odometry
     pose = None if seen.pose is None else _averaged(seen.pose, group)
     time, twist = _averaged(seen.time, group), _averaged(seen.twist, group)
-    return replace(run, odometry=Odometry(time, twist, pose))
+    middle = Odometry(time, twist, pose)
+    return replace(run, odometry=_at_ends(seen, middle, group) if any(seen.means) else middle)
+
+
+def _at_ends(seen: Odometry, middle: Odometry, group: int) -> Odometry:
+    """Return odometry that was averaged, told at the last sample of each group."""
+    count = len(middle.time) * group
+    time, pose = seen.time[group - 1 : count : group], seen.pose
+    twist = [
+        told if mean else np.interp(time, middle.time, told)
+        for told, mean in zip(middle.twist.T, seen.means, strict=True)
+    ]
+    pose = None if pose is None else pose[group - 1 : count : group]
+    return Odometry(time, np.column_stack(twist), pose, seen.means)
 
 
 def largest_command(stretches: Sequence[Stretch]) -> float:

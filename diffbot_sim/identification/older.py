@@ -1,0 +1,92 @@
+"""Twists that may be older than their stamps: means since the sample before, as encoders give."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
+
+from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
+from diffbot_sim.identification.fitting.predictor import MAX_STEP
+from diffbot_sim.identification.recordings.lateness import (
+    LATE_EFFECTS,
+    lateness_of,
+    of_interval_before,
+    pose_allows_lag,
+    speed_of_interval_before,
+)
+from diffbot_sim.identification.recordings.recordings import Recordings
+from diffbot_sim.identification.recordings.start import restarted
+from diffbot_sim.identification.recordings.stretches import median_interval
+from diffbot_sim.identification.selection.candidates import reduce
+from diffbot_sim.identification.selection.evidence import (
+    delta_bic,
+    delta_bic_of_both,
+    delta_bic_of_speed,
+)
+from diffbot_sim.identification.selection.stepwise import INDISTINGUISHABLE
+from diffbot_sim.records import Run
+
+
+class Older(NamedTuple):
+    """What of the twists may be older than its stamps.
+
+    taken: how a run is taken then; worth: how much lower the BIC of a second fit is then than that
+    of a first, for what may be older.
+    """
+
+    what: str
+    taken: Callable[[Run], Run]
+    worth: Callable[[Fit, Fit], float]
+
+
+OLDER = (
+    Older('twists', of_interval_before, delta_bic_of_both),
+    Older('speeds', speed_of_interval_before, delta_bic_of_speed),
+)
+
+
+def likely(final: Fit, recordings: Recordings) -> list[Older]:
+    """Return what may be older than its stamps, the likeliest first.
+
+    So it may where the very structure that was found fits better then; and where it makes needless
+    that the robot is late by less than an interval.
+    """
+    if not all(map(pose_allows_lag, recordings.learned)):
+        return []
+    interval = min(median_interval(run.odometry.time) for run in recordings.learned)
+    needless = 0.0 < _lateness(final) < interval
+    again = _timely if needless else _again
+    fits = [(older, again(_taken_as(older, final, recordings))) for older in OLDER]
+    told = [(o, fit) for o, fit in fits if needless or o.worth(final, fit) > INDISTINGUISHABLE]
+    return [o for o, _ in sorted(told, key=lambda pair: -delta_bic(final, pair[1]))]
+
+
+def is_taken(older: Older, first: Fit, second: Fit) -> bool:
+    """Say whether twists are older than their stamps, by a second fit that takes them so.
+
+    It must be clearly better than the first; or as good, if it needs no late robot.
+    """
+    worth = older.worth(first, second)
+    return worth > INDISTINGUISHABLE or (worth > -INDISTINGUISHABLE and not _lateness(second))
+
+
+def _lateness(fit: Fit) -> float:
+    return lateness_of(fit.space.values(fit.u))
+
+
+def _taken_as(older: Older, final: Fit, recordings: Recordings) -> Fit:
+    """Return a structure as it was found, on twists that are taken as older."""
+    fitted, _ = recordings.each(older.taken).divided
+    return replace(final, stretches=restarted(final.model, fitted, MAX_STEP))
+
+
+def _again(fit: Fit) -> Fit:
+    """Fit a structure again."""
+    return fit_prediction(fit.space, fit.stretches, fit.u, fit.gains)
+
+
+def _timely(fit: Fit) -> Fit:
+    """Fit a structure again, less what makes a robot late."""
+    for kind in fit.space.kinds:
+        if kind.name in LATE_EFFECTS:
+            fit = reduce(fit, kind.name)
+    return fit

@@ -1,0 +1,65 @@
+"""What odometry says of a robot that stands: a gyro may turn even then."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diffbot_sim.records import Run
+
+# Without force, or counting nothing, a robot may be seen standing after so long [s]; so many
+# samples are asked.
+COASTING, FEWEST = 0.5, 10
+# What is less than this is no harm [m/s, rad/s]; what lies within so many deviations is noise.
+HARMLESS, NOISE = 1e-3, 4.0
+# A median is beyond chance at so many standard errors.
+SURE = 6.0
+# Where less than this share agrees, the robot moves.
+MOST = 0.9
+# No gyro has a greater bias [rad/s]: who turns faster and counts nothing turns on the spot.
+GREATEST = 0.1
+
+
+class Turning(NamedTuple):
+    """The yaw rate that odometry tells of a robot that stands, and its standard error [rad/s]."""
+
+    rate: float
+    error: float
+
+    @property
+    def is_told(self) -> bool:
+        """Whether it is beyond chance, and no trifle."""
+        return abs(self.rate) > SURE * self.error + HARMLESS
+
+
+NOTHING = Turning(0.0, 0.0)
+
+
+def turning(run: Run) -> Turning:
+    """Return how odometry turns while the robot stands; nothing where that is not seen."""
+    twist = run.odometry.twist
+    noise = np.median(np.abs(np.diff(twist, axis=0)), axis=0) * 1.4826 / np.sqrt(2.0)
+    reach = NOISE * noise + HARMLESS
+    resting = _uncounted(run) & (np.abs(twist[:, 1]) < GREATEST)
+    omega = twist[(_unpushed(run) | resting) & (np.abs(twist[:, 0]) < reach[0]), 1]
+    if len(omega) < FEWEST:
+        return NOTHING
+    middle = float(np.median(omega))
+    agrees = np.mean(np.abs(omega - middle) < reach[1]) > MOST
+    return Turning(middle, float(noise[1] / np.sqrt(len(omega)))) if agrees else NOTHING
+
+
+def _uncounted(run: Run) -> NDArray[np.bool_]:
+    """Return at which samples the speed has been exactly none for some time, shape (k,)."""
+    time, rolls = run.odometry.time, run.odometry.twist[:, 0] != 0.0
+    last = np.maximum.accumulate(np.where(rolls, time, time[0]))
+    return np.asarray(time > last + COASTING)
+
+
+def _unpushed(run: Run) -> NDArray[np.bool_]:
+    """Return at which samples no force has acted for some time, shape (k,)."""
+    given, time = run.commands, run.odometry.time
+    ends = np.append(given.time[1:], np.inf)
+    until = np.maximum.accumulate(np.where(np.any(given.force != 0.0, axis=1), ends, -np.inf))
+    last = np.searchsorted(given.time, time, side='right') - 1
+    return np.asarray(time > np.where(last >= 0, until[np.maximum(last, 0)], -np.inf) + COASTING)
