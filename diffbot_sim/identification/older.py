@@ -22,7 +22,7 @@ from diffbot_sim.identification.selection.evidence import (
     delta_bic_of_both,
     delta_bic_of_speed,
 )
-from diffbot_sim.identification.selection.stepwise import INDISTINGUISHABLE
+from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE
 from diffbot_sim.records import Run
 
 

@@ -143,7 +143,7 @@ def joint_bounds(space: Space) -> tuple[Array, Array]:
 
 
 def fit_prediction(
-    space: Space, stretches: tuple[Stretch, ...], start: Array, gains: Array
+    space: Space, stretches: tuple[Stretch, ...], start: Array, gains: Array, rounds: int = ROUNDS
 ) -> Fit:
     """Fit parameters and noise model together by one-step prediction error, to the very end."""
     size = len(start)
@@ -153,5 +153,5 @@ def fit_prediction(
 
     begin = np.concatenate([start, gains])
     prior, bounds = joint_prior(space), joint_bounds(space)
-    point, sigma = minimise(errors, begin, prior, bounds, EVALUATIONS, ROUNDS)
+    point, sigma = minimise(errors, begin, prior, bounds, EVALUATIONS, rounds)
     return Fit(space, stretches, point[:size], point[size:], sigma)

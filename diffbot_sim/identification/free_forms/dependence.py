@@ -124,7 +124,8 @@ def against_the_model(fit: Fit, dependence: Dependence) -> Dependence:
     is no merit of the form that found it.
     """
     at = np.concatenate([fit.u, fit.gains]) + dependence.adaptation
-    alone = fit_prediction(fit.space, fit.stretches, *np.split(at, [len(fit.u)]))
+    u, gains = np.split(at, [len(fit.u)])
+    alone = fit_prediction(fit.space, fit.stretches, u, gains)
     gained = fit.deviance(fit.sigma) - alone.deviance(fit.sigma)
     if gained <= 0.0:
         return dependence

@@ -7,15 +7,14 @@ from operator import itemgetter
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.selection.candidates import approach, begun_anew, complete, reduce
-from diffbot_sim.identification.selection.evidence import Evidence, compare, delta_bic
+from diffbot_sim.identification.selection.candidates import approach, begun_anew, reduce
+from diffbot_sim.identification.selection.evidence import Evidence, compare
+from diffbot_sim.identification.selection.rivals import comes_up
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.trials import OUTDONE, Progress, Trial, try_all
 from diffbot_sim.identification.statistics.guards import may_be_chance
 from diffbot_sim.physics.effects import Effect
 
-# Structures closer than this in BIC cannot be told apart.
-INDISTINGUISHABLE = 10.0
 # What explains less than this share of what a found effect does, to first order, is no rival.
 RIVAL_SHARE = 0.5
 MOST_EFFECTS = 4
@@ -132,6 +131,6 @@ def _alternatives(
         if not score.seen or score.ratio < RIVAL_SHARE * worth:
             continue
         progress(f'trying {kind.name} as an alternative')
-        if delta_bic(complete(approach(screen, kind, score)), final) < INDISTINGUISHABLE:
+        if comes_up(approach(screen, kind, score), final):
             found.append(kind.name)
     return tuple(found)

@@ -1,6 +1,6 @@
 """Trials: every effect on top of a structure, and whether the evidence lets it in."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import nan
 
@@ -11,13 +11,17 @@ from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, complete
 from diffbot_sim.identification.selection.evidence import Evidence, compare
+from diffbot_sim.identification.selection.rivals import comes_up
 from diffbot_sim.identification.selection.screening import PROMISING, Score, Screen
 from diffbot_sim.identification.statistics.guards import ELSEWHERE_LEVEL, lasting, may_be_chance
 from diffbot_sim.physics.effects import Effect
 
-# What explains less than this share of the best after a few steps is fitted to its end only where
-# nothing better enters.
-WORTH_COMPLETING = 0.4
+# What promises less than this share of the best to first order is approached, and what explains
+# less than that one after a few steps is fitted to its end, only where nothing better enters.
+WORTH_APPROACHING, WORTH_COMPLETING = 0.1, 0.4
+# What explains less than this share of its price after a few steps never comes to be worth it: of
+# the effects that were named in the end all had explained a quarter of what they came to.
+HOPEFUL = 0.2
 
 SUPPORTED = 'supported'
 CHANCE = 'no better than chance'
@@ -73,42 +77,63 @@ def try_all(
             scores[kind] = screen.score(kind)
     promising = {k: s for k, s in scores.items() if s.seen and s.p_value <= PROMISING}
     trials = [_dismissed(screen, k, s) for k, s in scores.items() if k not in promising]
-    leaders, others = _race(screen, promising, progress)
+    return [*trials, *_judged(screen, promising, held_out, len(kinds), progress)]
 
-    def judged(approaches: Sequence[_Approach]) -> list[Trial]:
-        return [_completed(screen.fit, a, held_out, len(kinds)) for a in approaches]
 
-    first = judged(leaders)
+def _judged(
+    screen: Screen,
+    promising: Mapping[type[Effect], Score],
+    held_out: Sequence[Stretch],
+    tried: int,
+    progress: Progress,
+) -> list[Trial]:
+    """Fit and weigh what is promising; what falls far behind only where nothing better enters."""
+    best = max((score.ratio for score in promising.values()), default=0.0)
+    far = {k: s for k, s in promising.items() if s.ratio < WORTH_APPROACHING * best}
+    near = [_approached(screen, k, s, progress) for k, s in promising.items() if k not in far]
+    bar = WORTH_COMPLETING * max((a.fall for a in near), default=0.0)
+    leaders = [a for a in near if a.fall >= bar]
+    others = [a for a in near if a.fall < bar]
+    first = _led(screen, leaders, held_out, tried)
     if any(trial.accepted for trial in first):
-        return [*trials, *first, *(_behind(screen, a.kind, a.fall) for a in others)]
-    return [*trials, *first, *judged(others)]
+        behind = [(a.kind, a.fall) for a in others] + [(k, s.ratio) for k, s in far.items()]
+        return [*first, *(_not_fitted(screen, *told, BEHIND) for told in behind)]
+    others += [_approached(screen, k, s, progress) for k, s in far.items()]
+    return [*first, *(_completed(screen, a, held_out, tried) for a in others)]
 
 
-def _race(
-    screen: Screen, promising: dict[type[Effect], Score], progress: Progress
-) -> tuple[list[_Approach], list[_Approach]]:
-    """Approach what is promising; return those near the best, and the others."""
-    if not promising:
-        return [], []
-    base, found = screen.fit, list[_Approach]()
-    for kind, score in promising.items():
-        progress(f'fitting {kind.name}')
-        near = approach(screen, kind, score)
-        fall = base.deviance(base.sigma) - near.deviance(base.sigma)
-        found.append(_Approach(kind, score, near, fall))
-    bar = WORTH_COMPLETING * max(a.fall for a in found)
-    return [a for a in found if a.fall >= bar], [a for a in found if a.fall < bar]
+def _led(
+    screen: Screen, leaders: Sequence[_Approach], held_out: Sequence[Stretch], tried: int
+) -> list[Trial]:
+    """Fit leaders to the end, the best first; others while they may come up to one."""
+    trials = list[Trial]()
+    for leader in sorted(leaders, key=lambda a: -a.fall):
+        fits = [trial.fit for trial in trials if trial.accepted and trial.fit]
+        if all(comes_up(leader.near, fit) for fit in fits):
+            trials.append(_completed(screen, leader, held_out, tried))
+        else:
+            trials.append(_not_fitted(screen, leader.kind, leader.fall, BEHIND))
+    return trials
+
+
+def _approached(screen: Screen, kind: type[Effect], score: Score, progress: Progress) -> _Approach:
+    progress(f'fitting {kind.name}')
+    near, base = approach(screen, kind, score), screen.fit
+    return _Approach(kind, score, near, base.deviance(base.sigma) - near.deviance(base.sigma))
 
 
 def _completed(
-    current: Fit, approached: _Approach, held_out: Sequence[Stretch], tried: int
+    screen: Screen, approached: _Approach, held_out: Sequence[Stretch], tried: int
 ) -> Trial:
+    kind, fall = approached.kind, approached.fall
+    if fall < HOPEFUL * _price(screen, kind):
+        return _not_fitted(screen, kind, fall, CHANCE)
     fit = complete(approached.near)
-    evidence = compare(current, fit, held_out).of_best(approached.score.shapes)
+    evidence = compare(screen.fit, fit, held_out).of_best(approached.score.shapes)
     outcome = judge(evidence, tried)
-    if outcome == SUPPORTED and approached.kind.name in fit.incredible:
+    if outcome == SUPPORTED and kind.name in fit.incredible:
         outcome = INCREDIBLE
-    return Trial(approached.kind, fit, evidence, outcome)
+    return Trial(kind, fit, evidence, outcome)
 
 
 def _dismissed(screen: Screen, kind: type[Effect], score: Score) -> Trial:
@@ -116,15 +141,19 @@ def _dismissed(screen: Screen, kind: type[Effect], score: Score) -> Trial:
     return Trial(kind, None, _first_order(screen, kind, score.ratio, score.p_value), outcome)
 
 
-def _behind(screen: Screen, kind: type[Effect], fall: float) -> Trial:
+def _not_fitted(screen: Screen, kind: type[Effect], fall: float, outcome: str) -> Trial:
     p_value = float(stats.chi2.sf(max(fall, 0.0), len(kind.specs())))
-    return Trial(kind, None, _first_order(screen, kind, fall, p_value), BEHIND)
+    return Trial(kind, None, _first_order(screen, kind, fall, p_value), outcome)
 
 
 def _first_order(screen: Screen, kind: type[Effect], fall: float, p_value: float) -> Evidence:
     """Return the evidence of what was not fitted to the end."""
-    cost = len(kind.specs()) * float(np.log(screen.fit.whitened.size))
-    return Evidence(fall - cost, p_value, nan, nan, nan, nan)
+    return Evidence(fall - _price(screen, kind), p_value, nan, nan, nan, nan)
+
+
+def _price(screen: Screen, kind: type[Effect]) -> float:
+    """Return what the parameters of an effect cost in BIC."""
+    return len(kind.specs()) * float(np.log(screen.fit.whitened.size))
 
 
 def judge(evidence: Evidence, tried: int) -> str:

@@ -138,7 +138,7 @@ def _least_squares(
         f_scale=HUBER,
         x_scale='jac',
         max_nfev=evaluations,
-        ftol=1e-6,
+        ftol=1e-5,
         xtol=1e-6,
     )
     return np.asarray(result.x), bool(result.status > 0)

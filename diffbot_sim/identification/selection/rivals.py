@@ -1,0 +1,24 @@
+"""Rivals: structures that are fitted for as long as they may come up to another one."""
+
+from math import inf
+
+from diffbot_sim.identification.fitting.fit import ROUNDS, Fit, fit_prediction
+from diffbot_sim.identification.selection.evidence import delta_bic
+
+# Structures closer than this in BIC cannot be told apart.
+INDISTINGUISHABLE = 10.0
+# A rival that makes up for less than this share of what it lacks, in a round, will not come up.
+CATCHING_UP = 0.1
+
+
+def comes_up(rival: Fit, best: Fit) -> Fit | None:
+    """Fit a rival that was approached until it comes up to the best; None if it never does."""
+    behind = inf
+    for _ in range(ROUNDS):
+        rival = fit_prediction(rival.space, rival.stretches, rival.u, rival.gains, rounds=1)
+        before, behind = behind, delta_bic(rival, best)
+        if behind < INDISTINGUISHABLE:
+            return rival
+        if before - behind < CATCHING_UP * behind:
+            return None
+    return None
