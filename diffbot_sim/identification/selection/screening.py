@@ -1,6 +1,6 @@
 """Cheap screening: how much of the residual each effect could explain, to first order."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from operator import itemgetter
@@ -14,6 +14,7 @@ from diffbot_sim.identification.fitting.periodicity import wheel_orders
 from diffbot_sim.identification.fitting.response import Response, responses
 from diffbot_sim.identification.fitting.views import views
 from diffbot_sim.identification.recordings.stretches import largest_command
+from diffbot_sim.identification.selection.onsets import Onsets
 from diffbot_sim.identification.statistics.minimisation import difference, flatter
 from diffbot_sim.identification.statistics.parallel import each
 from diffbot_sim.identification.statistics.projection import Projection
@@ -29,6 +30,8 @@ PROMISING = 0.02
 SHARES = (1.0, 0.5)
 # How many options are compared by their actual error, and how many of them may be followed.
 COMPARED, FOLLOWED = 6, 2
+# Slopes of the errors at a point, along the coordinates at some places.
+Slopes = Callable[[Array, list[int]], Array]
 
 
 @dataclass(frozen=True)
@@ -90,12 +93,13 @@ class Screen:
     def _scored(self, kind: type[Effect]) -> Score:
         space = Space(self.fit.space.declared, (*self.fit.space.kinds, kind))
         starts = [point_of(kind, values) for values in kind.starts(self.drive)]
+        slopes_of = self._slopes_of(space, kind)
         if kind.shape:
-            options = each(partial(self._amounts, space, kind), starts)
+            options = each(partial(self._amounts, space, kind, slopes_of), starts)
         else:
             neutral = point_of(kind, [spec.default for spec in kind.specs()])
             options = each(partial(self._as_it_stands, space), starts)
-            options.append(self._amounts(space, kind, neutral))
+            options.append(self._amounts(space, kind, slopes_of, neutral))
         ratio, shapes = max(option.fall for option in options), len(starts) if kind.shape else 1
         return Score(
             ratio,
@@ -121,7 +125,14 @@ class Screen:
         """How the errors on each stretch answer to pushes on the body."""
         return responses(self.fit)
 
-    def _amounts(self, space: Space, kind: type[Effect], at: Array) -> '_Option':
+    @cached_property
+    def onsets(self) -> Onsets:
+        """How the errors answer to effects that set in at a moment."""
+        return Onsets(self.fit, self.responses, AMOUNT)
+
+    def _amounts(
+        self, space: Space, kind: type[Effect], slopes_of: Slopes, at: Array
+    ) -> '_Option':
         """Return the amounts of an effect, of the shape that `at` has, that explain most."""
         size = len(self.fit.u)
         neutral = [
@@ -130,7 +141,7 @@ class Screen:
         ]
         point = np.concatenate([self.fit.u, neutral])
         turned = [i for i, spec in enumerate(kind.specs()) if spec.name not in kind.shape]
-        slopes = np.stack([self._slope(space, point, size + i) for i in turned], axis=-1)
+        slopes = slopes_of(point, [size + i for i in turned])
         fall, amount, flat = self.explained(slopes)
         change = np.zeros(len(point))
         change[[size + i for i in turned]] = amount
@@ -154,6 +165,17 @@ class Screen:
 
     def _errors_at(self, space: Space, point: Array) -> Array:
         return whitened(self.fit.stretches, space.model(point), self.fit.gains, self.fit.sigma)
+
+    def _slopes_of(self, space: Space, kind: type[Effect]) -> Slopes:
+        """Return what gives the slopes of the errors along amounts of an effect, (n, 2, q)."""
+        if kind.onset is None:
+            return partial(self._slopes, space)
+        names = [spec.name for spec in kind.specs()]
+        # Made here: its own work is on all cores.
+        return partial(self.onsets.slopes, space, len(self.fit.u) + names.index(kind.onset))
+
+    def _slopes(self, space: Space, point: Array, turned: list[int]) -> Array:
+        return np.stack([self._slope(space, point, index) for index in turned], axis=-1)
 
     def _slope(self, space: Space, neutral: Array, index: int) -> Array:
         """Return the slope of the errors along an amount, of both sides where both are valid."""

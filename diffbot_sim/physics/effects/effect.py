@@ -42,6 +42,8 @@ class Effect:
     is_of_time: whether it counts time from the start of the run.
     guesses: values of the parameters from which fits start.
     shape: names of parameters that mean nothing while the others are neutral (a moment, a period).
+    onset: which of them is a moment before which it does nothing, and after which it acts as it
+    would from the start of the run.
     excitation: the drive that shows it.
     """
 
@@ -58,6 +60,7 @@ class Effect:
     is_of_time: ClassVar[bool] = False
     guesses: ClassVar[tuple[tuple[Any, ...], ...]]
     shape: ClassVar[tuple[str, ...]] = ()
+    onset: ClassVar[str | None] = None
     excitation: ClassVar[str]
 
     @classmethod

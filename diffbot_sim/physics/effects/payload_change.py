@@ -66,6 +66,7 @@ class PayloadChange(Effect):
     is_of_time = True
     guesses = ((2.0, 0.05, 30.0, 0.0), (-2.0, -0.05, 30.0, 0.0))
     shape = ('moment', 'friction_share')
+    onset = 'moment'
     excitation = 'the same starts and stops before and after the load changes'
 
     mass: float = parameter(

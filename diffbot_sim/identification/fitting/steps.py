@@ -1,0 +1,130 @@
+"""The single steps of a prediction, taken again with something changed."""
+
+import numpy as np
+from numba import types
+
+from diffbot_sim.identification.fitting.predictor import MAX_STEP, Prediction, predict
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.statistics.minimisation import flatter
+from diffbot_sim.physics.compiled import entry
+from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
+from diffbot_sim.physics.contact import Modes
+from diffbot_sim.physics.correction import correct
+from diffbot_sim.physics.embedding import embedded
+from diffbot_sim.physics.encoders import measured, twist_of, way_of
+from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.schedule import scheduled
+from diffbot_sim.physics.simulation import (
+    INTEGERS,
+    MATRIX,
+    Drive,
+    advance_held,
+    command_at,
+    workspace,
+)
+from diffbot_sim.physics.snapshot import restore
+from diffbot_sim.physics.vector import STATE_SIZE
+from diffbot_sim.records import Array
+
+UNCHANGED = np.zeros(4)
+
+
+class Steps:
+    """The single steps of a prediction, to be taken again from where each of them set out."""
+
+    def __init__(self, model: Model, stretch: Stretch, gains: Array) -> None:
+        self._model, self._stretch = embedded(model), stretch
+        self._before = predict(model, stretch, gains)
+        self._predicted = np.hstack(
+            [stretch.twist - self._before.innovation, self._before.foreseen]
+        )
+
+    def changed(self, model: Model, by: Array = UNCHANGED) -> Array:
+        """Return by how much steps end elsewhere, shape (k, 4): twist as measured; at that moment.
+
+        model: of the same body and effects, with other values; by, shape (4,): what the twist
+        before each step is changed by, and force [N] and torque [N·m] on the body while it lasts.
+        """
+        model, stretch = embedded(model), self._stretch
+        commands, out = scheduled(model, stretch.run.commands), self._predicted.copy()
+        _take(
+            *compose(tuple(type(effect) for effect in model.effects)),
+            model.pack(),
+            np.ascontiguousarray(commands.time),
+            np.ascontiguousarray(commands.force),
+            MAX_STEP,
+            np.ascontiguousarray(stretch.time),
+            by,
+            np.array(stretch.run.odometry.means, dtype=float),
+            np.ascontiguousarray(self._before.disturbance),
+            self._before.snapshots,
+            *_place(self._before),
+            out,
+        )
+        return np.asarray(out - self._predicted)
+
+    def slope(self, by: Array) -> Array:
+        """Return the same for each unit that all is changed by, of both sides the flatter one.
+
+        A jump lies on one side and is no slope.
+        """
+        size = by.max()
+        more, less = (self.changed(self._model, sign * by) / (sign * size) for sign in (1.0, -1.0))
+        return flatter(more, less)
+
+
+def _place(prediction: Prediction) -> tuple[Array, Array, Modes, Array]:
+    """Return what a step is taken in: z, effect states, modes and workspace."""
+    modes, work = workspace()
+    states = prediction.snapshots.shape[1] - STATE_SIZE - len(modes)
+    return np.empty(STATE_SIZE), np.empty(states), modes, work
+
+
+@entry(
+    types.void(
+        *FUNCTION_TYPES,
+        *(ARRAY, ARRAY, MATRIX, types.float64, ARRAY, ARRAY, ARRAY, MATRIX, MATRIX),
+        *(ARRAY, ARRAY, INTEGERS, MATRIX, MATRIX),
+    )
+)
+def _take(  # type: ignore[no-untyped-def]
+    laws,
+    settle,
+    params,
+    command_time,
+    force,
+    max_step,
+    times,
+    by,
+    means,
+    disturbance,
+    snapshots,
+    z,
+    states,
+    modes,
+    work,
+    out,
+) -> None:
+    """Fill out: each step's end, the twist as measured and at that moment."""
+    drive, b, current = Drive(command_time, force, max_step), params[2], -1
+    for k in range(1, len(times)):
+        current = command_at(drive, current, times[k - 1])
+        restore(snapshots[k - 1], z, modes, states)
+        correct(z, modes, b, by[0], by[1])
+        way, push = way_of(params, z), disturbance[k - 1]
+        advance_held(
+            laws,
+            settle,
+            params,
+            states,
+            z,
+            modes,
+            drive,
+            current,
+            (push[0] + by[2], push[1] + by[3]),
+            times[k - 1],
+            times[k],
+            work,
+        )
+        out[k, 0], out[k, 1] = measured(params, means, z, way, times[k] - times[k - 1])
+        out[k, 2], out[k, 3] = twist_of(params, z)
