@@ -11,20 +11,21 @@ from scipy.signal import lfilter
 from diffbot_sim.records import Array, Commands, Odometry, Run
 
 BEAT = 0.01  # pushes of the floor change every beat [s]
-ODOMETRY = 50.0  # [Hz]
 
 
 @dataclass(frozen=True)
 class Recording:
     """How a drive is recorded, and what disturbs it.
 
-    duration [s]; rate of the commands, 50 or 100 [Hz]; v_noise [m/s] and omega_noise [rad/s]:
-    standard deviations of white odometry noise; roughness: rms force of the floor on each wheel
-    [N], with a memory [s]; dead_reckoned: the pose is the integral of the noisy twist, not true.
+    duration [s]; rate of the commands and of the odometry, 50 or 100 [Hz]; v_noise [m/s] and
+    omega_noise [rad/s]: standard deviations of white odometry noise; roughness: rms force of the
+    floor on each wheel [N], with a memory [s]; dead_reckoned: the pose is the integral of the
+    noisy twist, not true.
     """
 
     duration: float = 120.0
     rate: float = 50.0
+    odometry: float = 50.0
     v_noise: float = 0.004
     omega_noise: float = 0.008
     roughness: float = 0.0
@@ -38,7 +39,7 @@ def record(plant: Plant, driver: Driver, how: Recording, seed: int, name: str = 
     beats = round(how.duration / BEAT)
     push = how.roughness * remembering(random, beats, BEAT / how.memory)
     noise = random.normal(size=(beats, 2)) * [how.v_noise, how.omega_noise]
-    each, odometry = round(1.0 / (how.rate * BEAT)), round(1.0 / (ODOMETRY * BEAT))
+    each, odometry = round(1.0 / (how.rate * BEAT)), round(1.0 / (how.odometry * BEAT))
     (state, way), force = at_rest(plant), np.zeros((beats // each, 2))
     motion, measured = np.empty((beats, 5)), np.zeros(2)
     for k in range(beats):
@@ -55,14 +56,11 @@ def record(plant: Plant, driver: Driver, how: Recording, seed: int, name: str = 
     return Run(name, Commands(time[::each], force), Odometry(time[seen], twist, pose))
 
 
-def repeat(plant: Plant, run: Run) -> Array:
-    """Return the twist that a plant has under a run's commands where nothing disturbs it.
-
-    Rows are those of the odometry [m/s, rad/s].
-    """
+def repeat(plant: Plant, run: Run, odometry: float = 50.0) -> Run:
+    """Return a run of a plant by the same commands, where nothing disturbs it."""
     rate = 1.0 / (run.commands.time[1] - run.commands.time[0])
-    how = Recording(len(run.commands.time) / rate, rate, 0.0, 0.0)
-    return record(plant, lambda k, measured: run.commands.force[k], how, 0).odometry.twist
+    how = Recording(len(run.commands.time) / rate, rate, odometry, 0.0, 0.0)
+    return record(plant, lambda k, measured: run.commands.force[k], how, 0)
 
 
 def remembering(random: np.random.Generator, count: int, forgotten: float) -> Array:
@@ -76,10 +74,15 @@ def remembering(random: np.random.Generator, count: int, forgotten: float) -> Ar
 def reckoned(time: Array, twist: Array) -> Array:
     """Integrate a twist into a pose by the trapezoidal rule, from zero."""
     step = np.diff(time)[:, None] * 0.5 * (twist[1:] + twist[:-1])
-    yaw = np.concatenate([[0.0], np.cumsum(step[:, 1])])
-    middle = 0.5 * (yaw[1:] + yaw[:-1])
-    path = step[:, :1] * np.column_stack([np.cos(middle), np.sin(middle)])
-    return np.column_stack([np.vstack([[0.0, 0.0], np.cumsum(path, axis=0)]), yaw])
+    return reckoned_of(np.vstack([np.zeros(2), step]))
+
+
+def reckoned_of(steps: Array) -> Array:
+    """Add up steps of way and heading into a pose, shape (k, 3), the first one from zero."""
+    yaw = np.cumsum(steps[:, 1])
+    middle = yaw - 0.5 * steps[:, 1]
+    path = np.cumsum(steps[:, :1] * np.column_stack([np.cos(middle), np.sin(middle)]), axis=0)
+    return np.column_stack([path, yaw])
 
 
 def _motion(plant: Plant, state: Array) -> Array:

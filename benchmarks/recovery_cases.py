@@ -9,11 +9,14 @@ from zlib import crc32
 from peer_effects import EFFECTS, FOREIGN
 from peer_manoeuvres import MANOEUVRES
 from peer_robots import MAKES
+from peer_sensors import SENSORS
 
 # What is written down of a case that was judged.
 Row = dict[str, Any]
 
 FLOORS = ('smooth', 'rough')
+# Effects that are asked with real sensors: those that slow odometry may hide or bring about.
+SENSED = ('actuator_lag', 'actuator_delay', 'slope')
 # Effects whose detection is followed over their size, in multiples of a weak one.
 FOLLOWED = ('quadratic_drag', 'actuator_lag', 'wheel_friction_asymmetry', 'payload_change')
 MULTIPLES = ('0.25×', '0.5×', '1×', '2×', '4×', '8×')
@@ -23,7 +26,8 @@ MULTIPLES = ('0.25×', '0.5×', '1×', '2×', '4×', '8×')
 class Case:
     """A robot with some effects of a size on a floor.
 
-    removed: the library lacks them; drive: one of MANOEUVRES, or none: random drives take turns.
+    removed: the library lacks them; drive: one of MANOEUVRES, or none: random drives take turns;
+    sensors: one of SENSORS, or none: twists of the moment, with white noise.
     """
 
     family: str
@@ -34,13 +38,14 @@ class Case:
     seed: int
     removed: bool = False
     drive: str = ''
+    sensors: str = ''
 
     @property
     def name(self) -> str:
         """What tells it from all other cases."""
         effects = '+'.join(self.effects) or 'none'
         told = f'{self.family} {effects} {self.size} {self.make} {self.floor} {self.seed}'
-        return f'{told} {self.drive}'.rstrip()
+        return f'{told} {self.drive} {self.sensors}'.strip()
 
 
 def _clean(seed: int) -> Iterator[Case]:
@@ -80,6 +85,15 @@ def _drives(seed: int) -> Iterator[Case]:
         yield Case('drives', effects, 'typical', 'large', 'rough', seed, drive=drive)
 
 
+def _odometry(seed: int) -> Iterator[Case]:
+    """Yield clean robots, and ones with an effect, each with the sensors whose turn it is."""
+    turn = seed
+    for effects, (make, floor) in product([(), *((n,) for n in SENSED)], product(MAKES, FLOORS)):
+        turn += 1
+        sensors = tuple(SENSORS)[turn % len(SENSORS)]
+        yield Case('odometry', effects, 'typical', make, floor, seed + turn, sensors=sensors)
+
+
 FAMILIES: dict[str, Callable[[int], Iterator[Case]]] = {
     'clean': _clean,
     'single': _single,
@@ -88,6 +102,7 @@ FAMILIES: dict[str, Callable[[int], Iterator[Case]]] = {
     'foreign': _foreign,
     'sizes': _sizes,
     'drives': _drives,
+    'odometry': _odometry,
 }
 
 

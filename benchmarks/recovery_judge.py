@@ -1,6 +1,6 @@
 """One case judged: drive the peer plant, identify, and compare the answer with the truth."""
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from time import perf_counter
 
 import numpy as np
@@ -10,6 +10,7 @@ from peer_manoeuvres import MANOEUVRES
 from peer_plant import Plant
 from peer_recording import Recording, record, repeat
 from peer_robots import MAKES, declared
+from peer_sensors import SENSORS, sensed
 from peer_sizes import size_of
 from recovery_cases import Case, Row
 
@@ -17,6 +18,9 @@ from diffbot_sim.identification import identify
 from diffbot_sim.identification.result import ErrorNorm, Identification
 from diffbot_sim.physics.effects import laws
 from diffbot_sim.records import Run
+
+# What sensors make of a drive is made of odometry at this rate [Hz].
+OFTEN = 100.0
 
 
 def judge(case: Case) -> Row:
@@ -30,7 +34,7 @@ def judge(case: Case) -> Row:
         found = identify([run], declared(MAKES[case.make], case.seed), kinds=kinds)
     except Exception as problem:  # one case must not end the others
         return {**row, 'verdict': 'failed', 'found': [], 'problem': repr(problem)}
-    row |= _answer(found) | {'ideal': _ideal(plant, run, found)}
+    row |= _answer(found) | {'ideal': _ideal(case, plant, run, found)}
     return {**row, 'seconds': round(perf_counter() - begin, 1)}
 
 
@@ -54,7 +58,10 @@ def recorded(case: Case, plant: Plant) -> Run:
         roughness=make.roughness * (case.floor == 'rough'),
         dead_reckoned=seed % 4 == 3,
     )
-    return record(plant, drive(make, seed, how.duration, how.rate), how, seed, case.name)
+    if case.sensors:
+        how = replace(how, odometry=OFTEN, v_noise=0.0, omega_noise=0.0)
+    run = record(plant, drive(make, seed, how.duration, how.rate), how, seed, case.name)
+    return sensed(run, plant, SENSORS[case.sensors], seed) if case.sensors else run
 
 
 def _answer(found: Identification) -> Row:
@@ -74,10 +81,13 @@ def _answer(found: Identification) -> Row:
     }
 
 
-def _ideal(plant: Plant, run: Run, found: Identification) -> Row:
+def _ideal(case: Case, plant: Plant, run: Run, found: Identification) -> Row:
     """Return the held-out error of the true plant, which does not know how the floor pushes."""
+    again = repeat(plant, run, OFTEN if case.sensors else Recording.odometry)
+    if case.sensors:
+        again = sensed(again, plant, SENSORS[case.sensors].quiet, case.seed)
     held_out = np.concatenate([c.time for c in found.comparisons])
     rows = np.isin(run.odometry.time, held_out)
-    missed = (repeat(plant, run) - run.odometry.twist)[rows]
+    missed = (again.odometry.twist - run.odometry.twist)[rows]
     v, omega = np.sqrt(np.mean(missed**2, axis=0))
     return asdict(ErrorNorm(float(v), float(omega)))

@@ -59,6 +59,7 @@ def tables(rows: Sequence[Row]) -> str:
         ),
         _section('Effect of no vocabulary', _of(rows, 'foreign'), ('effects', 'floor'), NAMELESS),
         _section('Other drives', _of(rows, 'drives'), ('drive', 'make', 'floor'), DRIVEN),
+        _section('Encoders and gyros', _of(rows, 'odometry'), ('effects', 'floor'), SENSED),
         _section('Detection over size', _of(rows, 'sizes'), ('effects', 'size', 'floor'), SINGLE),
         coverage(rows),
     ]
@@ -103,6 +104,12 @@ DRIVEN: dict[str, Column] = {
     'wrong name': _share(lambda row: bool(row['found']) and not reported(row)),
     'said nothing': _share(lambda row: row['verdict'] == 'nothing_missing' and not exact(row)),
     'unexplained': _share(lambda row: row['verdict'] == 'unexplained'),
+}
+SENSED: dict[str, Column] = {
+    'right and alone': _share(exact),
+    'wrong name': _share(lambda row: not set(row['found']) <= set(row['effects'])),
+    'unexplained': _share(lambda row: row['unexplained'] is not None),
+    **RATIOS,
 }
 NAMELESS: dict[str, Column] = {
     'unexplained': _share(lambda row: row['verdict'] == 'unexplained'),
