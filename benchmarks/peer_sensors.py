@@ -13,19 +13,20 @@ from diffbot_sim.records import Array, Odometry, Run
 class Sensors:
     """Encoders of both wheels, and perhaps a gyro in their place for the turn rate.
 
-    rate: of the odometry [Hz]; ticks: counts to a turn of a wheel; noise and bias of the gyro
-    [rad/s]; nan where there is none.
+    rate: of the odometry [Hz]; ticks: counts to a turn of a wheel; begun: share of the first tick
+    that a wheel has behind it; noise and bias of the gyro [rad/s], nan where there is none.
     """
 
     rate: float
     noise: float = np.nan
     bias: float = 0.0
     ticks: int = 4096
+    begun: float = 0.0
 
     @property
     def quiet(self) -> 'Sensors':
-        """The same with a gyro that makes no errors."""
-        return replace(self, noise=0.0 * self.noise, bias=0.0)
+        """The same with a gyro that makes no errors; what counts miss is not the same again."""
+        return replace(self, noise=0.0 * self.noise, bias=0.0, begun=0.5)
 
 
 ENCODERS = {f'encoders {rate:g} Hz': Sensors(rate) for rate in (10.0, 20.0, 30.0)}
@@ -45,7 +46,8 @@ def sensed(run: Run, plant: Plant, sensors: Sensors, seed: int) -> Run:
         [plant.half, -plant.half],
     ]
     tick = 2.0 * np.pi * plant.radius / sensors.ticks
-    counts = np.column_stack([np.floor(np.interp(time, seen.time, way) / tick) for way in ways.T])
+    rolled = np.column_stack([np.interp(time, seen.time, way) for way in ways.T])
+    counts = np.floor(rolled / tick + sensors.begun)
     moved = np.diff(counts, axis=0) * tick @ [[0.5, 0.5 / plant.half], [0.5, -0.5 / plant.half]]
     twist = moved * sensors.rate
     if np.isfinite(sensors.noise):

@@ -60,6 +60,17 @@ def likely(final: Fit, recordings: Recordings) -> list[Older]:
     return [o for o, _ in sorted(told, key=lambda pair: -delta_bic(final, pair[1]))]
 
 
+def may_be_older(final: Fit, recordings: Recordings) -> bool:
+    """Say whether older twists would explain all as well by a robot that is less late."""
+    if not _lateness(final) or not all(map(pose_allows_lag, recordings.learned)):
+        return False
+    fits = [(older, _again(_taken_as(older, final, recordings))) for older in OLDER]
+    return any(
+        o.worth(final, fit) > -INDISTINGUISHABLE and _lateness(fit) < _lateness(final)
+        for o, fit in fits
+    )
+
+
 def is_taken(older: Older, first: Fit, second: Fit) -> bool:
     """Say whether twists are older than their stamps, by a second fit that takes them so.
 

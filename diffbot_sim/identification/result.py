@@ -126,12 +126,12 @@ class Timing:
 
     lateness: by how much [s]; taken: what was done: 'pose', taken from the pose instead; 'mean',
     as means since the sample before, and 'speed', the speeds alone; 'filter', as they were before
-    a low-pass filter.
+    a low-pass filter; 'undecided', as they are stamped, though means explain them as well.
     """
 
     run: str
     lateness: float
-    taken: Literal['pose', 'mean', 'speed', 'filter']
+    taken: Literal['pose', 'mean', 'speed', 'filter', 'undecided']
 
 
 @dataclass(frozen=True)

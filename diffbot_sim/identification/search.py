@@ -12,8 +12,8 @@ from diffbot_sim.identification.fitting.filtering import filter_behind, unfilter
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.fitting.shaking import shaken
-from diffbot_sim.identification.older import is_taken, likely
-from diffbot_sim.identification.recordings.lateness import timely, timing
+from diffbot_sim.identification.older import is_taken, likely, may_be_older
+from diffbot_sim.identification.recordings.lateness import half_interval, timely, timing
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
@@ -29,7 +29,7 @@ class Found:
     """What was found in recordings, as they were taken to be timed.
 
     undoubted: the fit before names were doubted; time_constant [s]: of the filter of their twists
-    that was undone, 0 if none was.
+    that was undone, 0 if none was; undecided: whether twists may be older than their stamps.
     """
 
     recordings: Recordings
@@ -39,11 +39,14 @@ class Found:
     selection: Selection
     unexplained: Structure | None
     time_constant: float = 0.0
+    undecided: bool = False
 
     def timings(self, given: Recordings) -> tuple[Timing, ...]:
         """Return how recordings were taken otherwise than they had been given."""
         if self.time_constant > 0.0:
             return tuple(Timing(run.name, self.time_constant, 'filter') for run in given.all)
+        if self.undecided:
+            return tuple(Timing(run.name, half_interval(run), 'undecided') for run in given.all)
         pairs = zip(given.all, self.recordings.all, strict=True)
         return tuple(filter(None, (timing(one, other) for one, other in pairs)))
 
@@ -62,10 +65,11 @@ def search(
         other = _found(found.recordings.each(older.taken), declared, kinds, progress)
         if is_taken(older, found.selection.final, other.selection.final):
             return other
+    undecided = may_be_older(found.selection.final, found.recordings)
     # What is left of a filter may be held against the names that stand for it.
     time_constant = filter_behind(found.undoubted)
     if time_constant == 0.0:
-        return found
+        return replace(found, undecided=undecided)
     progress('undoing a filter of the twists')
     undone = found.recordings.each(partial(unfiltered, time_constant=time_constant))
     return replace(_found(undone, declared, kinds, progress), time_constant=time_constant)

@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from math import isfinite
 
-from diffbot_sim.identification.recordings.lateness import lateness_of
-from diffbot_sim.identification.recordings.stretches import median_interval
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
     NOTHING_MISSING,
@@ -34,17 +32,13 @@ TIMINGS = {
     'beside a gyro are; if they are not, it is the robot that is so much late.',
     'filter': 'the twists were taken as they were before a low-pass filter with a time constant '
     'of {}: it explains them and their noise better than a robot that is late.',
+    'undecided': 'the twists may be {} older than their stamps, as means over the past are; this '
+    'recording does not tell. Then it is not the robot that is so much late. Record faster.',
 }
 
 BIAS = (
     'the odometry turns by {} while the robot stands, as a gyro with a bias does; that was taken '
     'off its turn rates.'
-)
-
-TOO_SLOW = (
-    'The robot comes out as late by {:.3g} ms, less than the {:.3g} ms between two samples of the '
-    'odometry. Odometry that is itself so late, and whose pose was made of it, looks the same: '
-    'to be sure, record it faster.'
 )
 
 
@@ -145,15 +139,7 @@ def of_recordings(result: Identification) -> list[str]:
     """Say of which runs the twists were not taken as they were recorded, and why."""
     biases = [f'{it.run}: {BIAS.format(_rate(it.rate))}' for it in result.biases]
     late = [f'{it.run}: {TIMINGS[it.taken].format(_milliseconds(it))}' for it in result.timings]
-    return [*biases, *late, *_too_slow(result)]
-
-
-def _too_slow(result: Identification) -> list[str]:
-    """Say where the odometry is too slow to tell a late robot from late odometry."""
-    values = {f'{e.name}.{k}': v.value for e in result.effects for k, v in e.parameters.items()}
-    late = lateness_of(values)
-    interval = max((median_interval(run.time) for run in result.comparisons), default=0.0)
-    return [TOO_SLOW.format(1e3 * late, 1e3 * interval)] if 0.0 < late < interval else []
+    return [*biases, *late]
 
 
 def _milliseconds(it: Timing) -> str:

@@ -80,7 +80,12 @@ def timing(given: Run, taken: Run) -> Timing | None:
     if after.twist is not before.twist:
         return Timing(given.name, max(0.0, lag_behind_pose(before)), 'pose')
     what: Literal['mean', 'speed'] = 'mean' if all(after.means) else 'speed'
-    return Timing(given.name, 0.5 * median_interval(before.time), what)
+    return Timing(given.name, half_interval(given), what)
+
+
+def half_interval(run: Run) -> float:
+    """Return by how much a mean since the sample before is late [s]."""
+    return 0.5 * median_interval(run.odometry.time)
 
 
 def of_interval_before(run: Run) -> Run:
