@@ -40,24 +40,20 @@ SENSORS = ENCODERS | GYROS
 def sensed(run: Run, plant: Plant, sensors: Sensors, seed: int) -> Run:
     """Return what such sensors tell of a drive that was recorded often and without noise."""
     seen, time = run.odometry, np.arange(0.0, run.odometry.time[-1], 1.0 / sensors.rate)
-    rolled = np.diff(seen.time)[:, None] * 0.5 * (seen.twist[1:] + seen.twist[:-1])
-    ways = np.vstack([np.zeros(2), np.cumsum(rolled, axis=0)]) @ [
-        [1, 1],
-        [plant.half, -plant.half],
-    ]
+    steps = np.diff(seen.time)[:, None] * 0.5 * (seen.twist[1:] + seen.twist[:-1])
+    wheels = np.array([[1.0, 1.0], [plant.half, -plant.half]])
+    way = np.vstack([np.zeros(2), np.cumsum(steps, axis=0)]) @ wheels
+    rolled = np.column_stack([np.interp(time, seen.time, wheel) for wheel in way.T])
     tick = 2.0 * np.pi * plant.radius / sensors.ticks
-    rolled = np.column_stack([np.interp(time, seen.time, way) for way in ways.T])
     counts = np.floor(rolled / tick + sensors.begun)
-    moved = np.diff(counts, axis=0) * tick @ [[0.5, 0.5 / plant.half], [0.5, -0.5 / plant.half]]
-    twist = moved * sensors.rate
+    twist = np.diff(counts, axis=0) * tick * sensors.rate @ np.linalg.inv(wheels)
     if np.isfinite(sensors.noise):
-        twist[:, 1] = np.interp(time[1:], seen.time, seen.twist[:, 1]) + _errors(
-            sensors, time, seed
-        )
+        turning = np.interp(time[1:], seen.time, seen.twist[:, 1])
+        twist[:, 1] = turning + _errors(sensors, len(turning), seed)
     pose = reckoned_of(np.vstack([np.zeros(2), twist / sensors.rate]))[1:]
     return replace(run, odometry=Odometry(time[1:], twist, pose))
 
 
-def _errors(sensors: Sensors, time: Array, seed: int) -> Array:
+def _errors(sensors: Sensors, count: int, seed: int) -> Array:
     random = np.random.default_rng([seed, 4])
-    return np.asarray(sensors.bias + sensors.noise * random.normal(size=len(time) - 1))
+    return np.asarray(sensors.bias + sensors.noise * random.normal(size=count))
