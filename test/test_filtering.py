@@ -79,4 +79,5 @@ def test_late_robot_with_coloured_noise_is_not_taken_for_a_filter(memory: float)
     run = driven((ActuatorLag(0.08),), Surroundings(1e-5, 1e-5))
     answer = identify([coloured(run, memory)], Model())
     assert [effect.name for effect in answer.effects] == ['actuator_lag']
-    assert not answer.timings
+    # Without a pose it may well be undecided whether the twists are means.
+    assert 'filter' not in [it.taken for it in answer.timings]
