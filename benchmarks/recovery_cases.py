@@ -44,8 +44,8 @@ class Case:
     def name(self) -> str:
         """What tells it from all other cases."""
         effects = '+'.join(self.effects) or 'none'
-        told = f'{self.family} {effects} {self.size} {self.make} {self.floor} {self.seed}'
-        return f'{told} {self.drive} {self.sensors}'.strip()
+        told = (self.family, effects, self.size, self.make, self.floor, str(self.seed))
+        return ' '.join(filter(None, (*told, self.drive, self.sensors)))
 
 
 def _clean(seed: int) -> Iterator[Case]:
@@ -87,9 +87,8 @@ def _drives(seed: int) -> Iterator[Case]:
 
 def _odometry(seed: int) -> Iterator[Case]:
     """Yield clean robots, and ones with an effect, each with the sensors whose turn it is."""
-    turn = seed
-    for effects, (make, floor) in product([(), *((n,) for n in SENSED)], product(MAKES, FLOORS)):
-        turn += 1
+    robots = product([(), *((name,) for name in SENSED)], MAKES, FLOORS)
+    for turn, (effects, make, floor) in enumerate(robots, start=seed + 1):
         sensors = tuple(SENSORS)[turn % len(SENSORS)]
         yield Case('odometry', effects, 'typical', make, floor, seed + turn, sensors=sensors)
 

@@ -50,7 +50,6 @@ def identify(
     """
     given = Recordings(tuple(runs), tuple(validate))
     recordings = given.each(unbiased)
-    pairs = zip(given.all, recordings.all, strict=True)
     found = search(recordings, declared, _candidates(declared, kinds), progress)
     selection, unexplained, held_out = found.selection, found.unexplained, found.held_out
     final = _for_simulation(selection, found.recalibrated)
@@ -78,7 +77,7 @@ def identify(
         horizons=horizons(models, watched, held_out, errors),
         runs=agreement(selection.final, found.recordings.all),
         timings=found.timings(recordings),
-        biases=tuple(filter(None, (bias_of(one, other) for one, other in pairs))),
+        biases=tuple(filter(None, map(bias_of, given.all, recordings.all))),
     )
 
 

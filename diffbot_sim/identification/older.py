@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cached_property
 from typing import NamedTuple
 
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
@@ -44,31 +45,60 @@ OLDER = (
 )
 
 
-def likely(final: Fit, recordings: Recordings) -> list[Older]:
-    """Return what may be older than its stamps, the likeliest first.
+class Ages:
+    """How old twists may be, held against a structure that was found as they are stamped."""
 
-    So it may where the very structure that was found fits better then; and where it makes needless
-    that the robot is late by less than an interval.
-    """
-    if not all(map(pose_allows_lag, recordings.learned)):
-        return []
-    interval = min(median_interval(run.odometry.time) for run in recordings.learned)
-    needless = 0.0 < _lateness(final) < interval
-    again = _timely if needless else _again
-    fits = [(older, again(_taken_as(older, final, recordings))) for older in OLDER]
-    told = [(o, fit) for o, fit in fits if needless or o.worth(final, fit) > INDISTINGUISHABLE]
-    return [o for o, _ in sorted(told, key=lambda pair: -delta_bic(final, pair[1]))]
+    def __init__(self, final: Fit, recordings: Recordings) -> None:
+        self._final, self._recordings = final, recordings
 
+    @property
+    def likely(self) -> list[Older]:
+        """What may be older than its stamps, the likeliest first.
 
-def may_be_older(final: Fit, recordings: Recordings) -> bool:
-    """Say whether older twists would explain all as well by a robot that is less late."""
-    if not _lateness(final) or not all(map(pose_allows_lag, recordings.learned)):
-        return False
-    fits = [(older, _again(_taken_as(older, final, recordings))) for older in OLDER]
-    return any(
-        o.worth(final, fit) > -INDISTINGUISHABLE and _lateness(fit) < _lateness(final)
-        for o, fit in fits
-    )
+        So it may where the very structure that was found fits better then; and where it makes
+        needless that the robot is late by less than an interval.
+        """
+        if not self._allowed:
+            return []
+        interval = min(median_interval(run.odometry.time) for run in self._recordings.learned)
+        needless = 0.0 < _lateness(self._final) < interval
+        fits = [(o, _timely(fit)) for o, fit in self._taken] if needless else self._again
+        told = [
+            (o, fit)
+            for o, fit in fits
+            if needless or o.worth(self._final, fit) > INDISTINGUISHABLE
+        ]
+        return [o for o, _ in sorted(told, key=lambda pair: -delta_bic(self._final, pair[1]))]
+
+    @property
+    def is_undecided(self) -> bool:
+        """Whether older twists would explain all as well by a robot that is less late."""
+        late = _lateness(self._final)
+        return (
+            late > 0.0
+            and self._allowed
+            and any(
+                o.worth(self._final, fit) > -INDISTINGUISHABLE and _lateness(fit) < late
+                for o, fit in self._again
+            )
+        )
+
+    @cached_property
+    def _allowed(self) -> bool:
+        return all(map(pose_allows_lag, self._recordings.learned))
+
+    @property
+    def _taken(self) -> list[tuple[Older, Fit]]:
+        """The structure as it was found, on twists that are taken as older."""
+        return [(older, _on(self._final, self._recordings.each(older.taken))) for older in OLDER]
+
+    @cached_property
+    def _again(self) -> list[tuple[Older, Fit]]:
+        """The same, fitted again."""
+        return [
+            (older, fit_prediction(fit.space, fit.stretches, fit.u, fit.gains))
+            for older, fit in self._taken
+        ]
 
 
 def is_taken(older: Older, first: Fit, second: Fit) -> bool:
@@ -84,15 +114,10 @@ def _lateness(fit: Fit) -> float:
     return lateness_of(fit.space.values(fit.u))
 
 
-def _taken_as(older: Older, final: Fit, recordings: Recordings) -> Fit:
-    """Return a structure as it was found, on twists that are taken as older."""
-    fitted, _ = recordings.each(older.taken).divided
+def _on(final: Fit, recordings: Recordings) -> Fit:
+    """Return a structure as it was found, on other recordings."""
+    fitted, _ = recordings.divided
     return replace(final, stretches=restarted(final.model, fitted, MAX_STEP))
-
-
-def _again(fit: Fit) -> Fit:
-    """Fit a structure again."""
-    return fit_prediction(fit.space, fit.stretches, fit.u, fit.gains)
 
 
 def _timely(fit: Fit) -> Fit:

@@ -12,7 +12,7 @@ from diffbot_sim.identification.fitting.filtering import filter_behind, unfilter
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.fitting.shaking import shaken
-from diffbot_sim.identification.older import is_taken, likely, may_be_older
+from diffbot_sim.identification.older import Ages, is_taken
 from diffbot_sim.identification.recordings.lateness import half_interval, timely, timing
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
@@ -47,8 +47,7 @@ class Found:
             return tuple(Timing(run.name, self.time_constant, 'filter') for run in given.all)
         if self.undecided:
             return tuple(Timing(run.name, half_interval(run), 'undecided') for run in given.all)
-        pairs = zip(given.all, self.recordings.all, strict=True)
-        return tuple(filter(None, (timing(one, other) for one, other in pairs)))
+        return tuple(filter(None, map(timing, given.all, self.recordings.all)))
 
 
 def search(
@@ -59,17 +58,17 @@ def search(
     Raises DataError where the runs are too short or do not move.
     """
     found = _found(recordings.each(timely), declared, kinds, progress)
+    ages = Ages(found.selection.final, found.recordings)
     told = found.selection.final.space.kinds or found.unexplained
-    for older in likely(found.selection.final, found.recordings) if told else ():
+    for older in ages.likely if told else ():
         progress(f'taking {older.what} for means since the sample before')
         other = _found(found.recordings.each(older.taken), declared, kinds, progress)
         if is_taken(older, found.selection.final, other.selection.final):
             return other
-    undecided = may_be_older(found.selection.final, found.recordings)
     # What is left of a filter may be held against the names that stand for it.
     time_constant = filter_behind(found.undoubted)
     if time_constant == 0.0:
-        return replace(found, undecided=undecided)
+        return replace(found, undecided=ages.is_undecided)
     progress('undoing a filter of the twists')
     undone = found.recordings.each(partial(unfiltered, time_constant=time_constant))
     return replace(_found(undone, declared, kinds, progress), time_constant=time_constant)

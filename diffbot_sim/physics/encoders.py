@@ -1,22 +1,8 @@
 """What odometry tells of the wheels: a twist of the moment, or a mean since the sample before."""
 
 from diffbot_sim.physics.compiled import compiled
-from diffbot_sim.physics.vector import ANGLE_LEFT, ANGLE_RIGHT, SPEED_LEFT, SPEED_RIGHT
+from diffbot_sim.physics.vector import twist_of, way_of
 from diffbot_sim.records import Array
-
-
-@compiled
-def twist_of(params: Array, z: Array) -> tuple[float, float]:
-    """Return speed [m/s] and turn rate [rad/s] of the moment."""
-    right, left = z[SPEED_RIGHT], z[SPEED_LEFT]
-    return 0.5 * (right + left), (right - left) / (2.0 * params[2])
-
-
-@compiled
-def way_of(params: Array, z: Array) -> tuple[float, float]:
-    """Return way [m] and turn [rad] since the wheels stood at angle 0."""
-    right, left = params[3] * z[ANGLE_RIGHT], params[3] * z[ANGLE_LEFT]
-    return 0.5 * (right + left), (right - left) / (2.0 * params[2])
 
 
 @compiled

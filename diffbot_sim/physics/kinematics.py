@@ -1,14 +1,21 @@
 """Kinematics of the differential drive: eqs. (2)-(5)."""
 
+from typing import TypeVar
+
 import numpy as np
 
 from diffbot_sim.records import Array
 
+Number = TypeVar('Number', float, Array)
+
 
 def body_twist(
-    speed_right: float, speed_left: float, half_separation: float
-) -> tuple[float, float]:
-    """Return v [m/s] and ω [rad/s] of the axle midpoint from wheel speeds [m/s]: (4), (2)."""
+    speed_right: Number, speed_left: Number, half_separation: float
+) -> tuple[Number, Number]:
+    """Return v [m/s] and ω [rad/s] of the axle midpoint from wheel speeds [m/s]: (4), (2).
+
+    And way [m] and turn [rad] from the ways of the wheels [m]; single numbers or arrays.
+    """
     v = 0.5 * (speed_right + speed_left)
     omega = (speed_right - speed_left) / (2.0 * half_separation)
     return v, omega

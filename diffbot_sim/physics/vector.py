@@ -3,12 +3,15 @@
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.composition import Laws
 from diffbot_sim.physics.instant import Inputs, Instant
+from diffbot_sim.physics.kinematics import body_twist
 from diffbot_sim.physics.stages import Motion
 from diffbot_sim.records import Array
 
 # Where things stand in z: pose, wheel angles [rad], wheel rim speeds [m/s].
 X, Y, HEADING, ANGLE_RIGHT, ANGLE_LEFT, SPEED_RIGHT, SPEED_LEFT = range(7)
 STATE_SIZE = 7
+
+_of_body = compiled(body_twist)
 
 
 @compiled
@@ -19,10 +22,21 @@ def copy_state(z: Array, into: Array) -> None:
 
 
 @compiled
+def twist_of(params: Array, z: Array) -> tuple[float, float]:
+    """Return speed [m/s] and turn rate [rad/s] of the moment."""
+    return _of_body(z[SPEED_RIGHT], z[SPEED_LEFT], params[2])
+
+
+@compiled
+def way_of(params: Array, z: Array) -> tuple[float, float]:
+    """Return way [m] and turn [rad] since the wheels stood at angle 0."""
+    return _of_body(params[3] * z[ANGLE_RIGHT], params[3] * z[ANGLE_LEFT], params[2])
+
+
+@compiled
 def motion_at(params: Array, z: Array, time: float, elapsed: float) -> Motion:
     """Gather what effects may look at."""
-    v = 0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT])
-    omega = (z[SPEED_RIGHT] - z[SPEED_LEFT]) / (2.0 * params[2])
+    v, omega = twist_of(params, z)
     pose = (z[X], z[Y], z[HEADING])
     wheels = (z[ANGLE_RIGHT], z[ANGLE_LEFT], z[SPEED_RIGHT], z[SPEED_LEFT])
     return Motion(time, elapsed, *pose, v, omega, *wheels)

@@ -14,7 +14,7 @@ from scipy.optimize import minimize_scalar
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
-from diffbot_sim.identification.recordings.lateness import LATE
+from diffbot_sim.identification.recordings.lateness import LATE, LATE_EFFECTS
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.memory import unforeseen
@@ -40,8 +40,8 @@ def filter_behind(fit: Fit) -> float:
     explains more.
     """
     values = fit.space.values(fit.u)
-    late = [(values[name], name.partition('.')[0]) for name in LATE if values.get(name, 0.0) > 0.0]
-    looks = [(_cost_before(fit, effect, time), time, effect) for time, effect in late]
+    late = [(values.get(name, 0.0), e) for name, e in zip(LATE, LATE_EFFECTS, strict=True)]
+    looks = [(_cost_before(fit, e, time), time, e) for time, e in late if time > 0.0]
     cost, near, effect = min(looks, default=(inf, 0.0, ''))
     if cost > _cost(fit) - CLEAR:
         return 0.0

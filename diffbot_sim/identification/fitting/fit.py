@@ -54,6 +54,12 @@ class Fit:
         """Innovations of all stretches over sigma, shape (n, 2)."""
         return whitened(self.stretches, self.model, self.gains, self.sigma)
 
+    def counted(self, errors: Sequence[Array]) -> Array:
+        """Return what counts of errors on each stretch, (k, 2, q), over sigma, (n, 2, q)."""
+        pairs = zip(errors, self.stretches, strict=True)
+        rows = [of_stretch[stretch.used > 0] for of_stretch, stretch in pairs]
+        return np.asarray(np.concatenate(rows) / self.sigma[:, None])
+
     @property
     def prior_information(self) -> Array:
         """What the weak prior knows of u and then of the gains: the inverse variances."""
@@ -145,7 +151,10 @@ def joint_bounds(space: Space) -> tuple[Array, Array]:
 def fit_prediction(
     space: Space, stretches: tuple[Stretch, ...], start: Array, gains: Array, rounds: int = ROUNDS
 ) -> Fit:
-    """Fit parameters and noise model together by one-step prediction error, to the very end."""
+    """Fit parameters and noise model together by one-step prediction error.
+
+    To the very end, unless fewer rounds are asked for.
+    """
     size = len(start)
 
     def errors(at: Array) -> Array:

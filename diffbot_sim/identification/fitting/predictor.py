@@ -16,7 +16,7 @@ from diffbot_sim.physics.compiled import entry
 from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
 from diffbot_sim.physics.correction import correct
 from diffbot_sim.physics.embedding import embedded
-from diffbot_sim.physics.encoders import measured, twist_of, way_of
+from diffbot_sim.physics.encoders import measured
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.simulation import (
@@ -32,7 +32,7 @@ from diffbot_sim.physics.simulation import (
     workspace,
 )
 from diffbot_sim.physics.snapshot import keep, snapshot_size
-from diffbot_sim.physics.vector import HEADING
+from diffbot_sim.physics.vector import HEADING, twist_of, way_of
 from diffbot_sim.records import Array
 
 # Longest integration step [s]; fourth order keeps its error far below any odometry's noise.
@@ -46,14 +46,12 @@ class Prediction:
     """Errors of the one-step prediction, and what the predictor held to be true.
 
     innovation: measured - predicted twist, shape (k, 2); twist: of the moment, corrected, shape
-    (k, 2); foreseen: the same before its correction; disturbance: estimated force [N] and torque
-    [N·m] on the body, shape (k, 2); snapshots: what the next step sets out from, a row for each
-    sample.
+    (k, 2); disturbance: estimated force [N] and torque [N·m] on the body, shape (k, 2); snapshots:
+    what the next step sets out from, a row for each sample.
     """
 
     innovation: Array
     twist: Array
-    foreseen: Array
     disturbance: Array
     snapshots: Array
 
@@ -67,7 +65,7 @@ def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = N
     count, model = len(stretch.time), embedded(model)
     commands = scheduled(model, stretch.run.commands)
     states = initial_states(model, commands, float(stretch.time[0]))
-    out, snapshots = np.zeros((count, 8)), np.empty((count, snapshot_size(states)))
+    out, snapshots = np.zeros((count, 6)), np.empty((count, snapshot_size(states)))
     _predict(
         *compose(tuple(type(effect) for effect in model.effects)),
         model.pack(),
@@ -86,7 +84,7 @@ def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = N
         out,
         snapshots,
     )
-    return Prediction(out[:, 0:2], out[:, 2:4], out[:, 6:8], out[:, 4:6], snapshots)
+    return Prediction(out[:, 0:2], out[:, 2:4], out[:, 4:6], snapshots)
 
 
 @entry(
@@ -116,7 +114,7 @@ def _predict(  # type: ignore[no-untyped-def]
     out,
     snapshots,
 ) -> None:
-    """Fill out: innovation, corrected twist, disturbance, twist before; and the snapshots."""
+    """Fill out: innovation, corrected twist, disturbance; and a snapshot after each sample."""
     drive, b = Drive(command_time, force, max_step), params[2]
     current = command_at(drive, -1, times[0])
     initial_modes(laws, params, states, z, modes, inputs_of(drive, current, 0.0, 0.0), times[0])
@@ -145,7 +143,6 @@ def _predict(  # type: ignore[no-untyped-def]
             out[k, 0], out[k, 1] = error_v, error_omega
             # What a force did all the while is at the end twice what it is on the mean.
             error_v, error_omega = (1.0 + means[0]) * error_v, (1.0 + means[1]) * error_omega
-            out[k, 6], out[k, 7] = twist_of(params, z)
             correct(z, modes, b, gains[0] * error_v, gains[3] * error_omega)
             pushing *= gains[2] ** interval
             turning *= gains[5] ** interval

@@ -11,7 +11,7 @@ from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
 from diffbot_sim.physics.contact import Modes
 from diffbot_sim.physics.correction import correct
 from diffbot_sim.physics.embedding import embedded
-from diffbot_sim.physics.encoders import measured, twist_of, way_of
+from diffbot_sim.physics.encoders import measured
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.simulation import (
@@ -23,7 +23,7 @@ from diffbot_sim.physics.simulation import (
     workspace,
 )
 from diffbot_sim.physics.snapshot import restore
-from diffbot_sim.physics.vector import STATE_SIZE
+from diffbot_sim.physics.vector import STATE_SIZE, twist_of, way_of
 from diffbot_sim.records import Array
 
 UNCHANGED = np.zeros(4)
@@ -35,9 +35,7 @@ class Steps:
     def __init__(self, model: Model, stretch: Stretch, gains: Array) -> None:
         self._model, self._stretch = embedded(model), stretch
         self._before = predict(model, stretch, gains)
-        self._predicted = np.hstack(
-            [stretch.twist - self._before.innovation, self._before.foreseen]
-        )
+        self._predicted = self._taken(self._model, UNCHANGED)
 
     def changed(self, model: Model, by: Array = UNCHANGED) -> Array:
         """Return by how much steps end elsewhere, shape (k, 4): twist as measured; at that moment.
@@ -45,8 +43,12 @@ class Steps:
         model: of the same body and effects, with other values; by, shape (4,): what the twist
         before each step is changed by, and force [N] and torque [N·m] on the body while it lasts.
         """
-        model, stretch = embedded(model), self._stretch
-        commands, out = scheduled(model, stretch.run.commands), self._predicted.copy()
+        return self._taken(embedded(model), by) - self._predicted
+
+    def _taken(self, model: Model, by: Array) -> Array:
+        """Return how steps end, shape (k, 4); there is none before the first sample."""
+        stretch = self._stretch
+        commands, out = scheduled(model, stretch.run.commands), np.zeros((len(stretch.time), 4))
         _take(
             *compose(tuple(type(effect) for effect in model.effects)),
             model.pack(),
@@ -61,7 +63,7 @@ class Steps:
             *_place(self._before),
             out,
         )
-        return np.asarray(out - self._predicted)
+        return out
 
     def slope(self, by: Array) -> Array:
         """Return the same for each unit that all is changed by, of both sides the flatter one.

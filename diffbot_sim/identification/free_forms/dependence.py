@@ -144,12 +144,11 @@ def acting(fit: Fit, basis: Basis, at: Array, stretches: Sequence[Stretch]) -> A
 
 def sensitivity(screen: Screen, basis: Basis) -> Array:
     """Return the derivative of whitened errors by the amounts of a basis, shape (n, 2, q)."""
-    rows = []
-    for index, stretch in enumerate(screen.fit.stretches):
+    errors = []
+    for index, response in enumerate(screen.responses):
         pushes = [basis.push(index, function) for function in range(basis.size)]
-        errors = screen.responses[index].errors(np.stack(pushes, axis=-1))
-        rows.append(errors[stretch.used > 0])
-    return np.concatenate(rows) / screen.fit.sigma[:, None]
+        errors.append(response.errors(np.stack(pushes, axis=-1)))
+    return screen.fit.counted(errors)
 
 
 def worth_of(dependence: Dependence, fit: Fit) -> float:

@@ -7,6 +7,7 @@ import numpy as np
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.physics import simulate
 from diffbot_sim.physics.embedding import embedded
+from diffbot_sim.physics.kinematics import body_twist
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array, Trajectory
@@ -29,7 +30,7 @@ def simulated(
 def _way(model: Model, motion: Trajectory) -> Array:
     """Return way [m] and turn [rad] that the wheels tell, shape (k, 2)."""
     right, left = model.robot.wheel_radius * motion.wheel_angle.T
-    return np.column_stack([0.5 * (right + left), 0.5 * (right - left) / model.half_separation])
+    return np.column_stack(body_twist(right, left, model.half_separation))
 
 
 def _means(time: Array, way: Array, first: float) -> Array:

@@ -10,8 +10,11 @@ from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.response import Response
 from diffbot_sim.identification.fitting.steps import Steps
-from diffbot_sim.identification.statistics.minimisation import flatter
+from diffbot_sim.identification.statistics.minimisation import slope
 from diffbot_sim.records import Array
+
+# Steps as they are differ by nothing.
+NONE = np.zeros(4)
 
 
 class Onsets:
@@ -34,14 +37,13 @@ class Onsets:
         from_start[onset] = 0.0
         moment = space.coordinates[onset].value(float(point[onset]))
         changes = [self._changes(space, from_start, index) for index in turned]
-        rows = []
+        errors = []
         for stretch, response, *each in zip(
             self._fit.stretches, self._responses, *changes, strict=True
         ):
             later = np.append(False, stretch.time[:-1] >= moment)
-            errors = response.carried(np.stack(each, axis=-1) * later[:, None, None])
-            rows.append(errors[stretch.used > 0])
-        return np.asarray(np.concatenate(rows) / self._fit.sigma[:, None])
+            errors.append(response.carried(np.stack(each, axis=-1) * later[:, None, None]))
+        return self._fit.counted(errors)
 
     def _changes(self, space: Space, point: Array, index: int) -> list[Array]:
         """Return what a unit of an amount changes in each step of each stretch, (k, 4)."""
@@ -51,13 +53,10 @@ class Onsets:
         return self._known[key]
 
     def _slope(self, steps: Steps, space: Space, point: Array, index: int) -> Array:
-        """Return it for one stretch, of both sides where both are valid."""
+        """Return it for one stretch."""
 
-        def aside(by: float) -> Array:
-            moved = point.copy()
-            moved[index] += by
-            return np.asarray(steps.changed(space.model(moved)) / by)
+        def changed(at: Array) -> Array:
+            return steps.changed(space.model(at))
 
-        if point[index] - self._amount < space.bounds()[0][index]:
-            return aside(self._amount)
-        return flatter(aside(self._amount), aside(-self._amount))
+        lowest = space.bounds()[0][index]
+        return slope(changed, point, NONE, index, self._amount, lowest)

@@ -11,14 +11,14 @@ INDISTINGUISHABLE = 10.0
 CATCHING_UP = 0.1
 
 
-def comes_up(rival: Fit, best: Fit) -> Fit | None:
-    """Fit a rival that was approached until it comes up to the best; None if it never does."""
+def comes_up(rival: Fit, best: Fit) -> bool:
+    """Fit a rival that was approached for as long as it may come up to the best; say if it did."""
     behind = inf
     for _ in range(ROUNDS):
         rival = fit_prediction(rival.space, rival.stretches, rival.u, rival.gains, rounds=1)
         before, behind = behind, delta_bic(rival, best)
         if behind < INDISTINGUISHABLE:
-            return rival
+            return True
         if before - behind < CATCHING_UP * behind:
-            return None
-    return None
+            return False
+    return False

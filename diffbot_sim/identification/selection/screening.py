@@ -15,7 +15,7 @@ from diffbot_sim.identification.fitting.response import Response, responses
 from diffbot_sim.identification.fitting.views import views
 from diffbot_sim.identification.recordings.stretches import largest_command
 from diffbot_sim.identification.selection.onsets import Onsets
-from diffbot_sim.identification.statistics.minimisation import difference, flatter
+from diffbot_sim.identification.statistics.minimisation import slope
 from diffbot_sim.identification.statistics.parallel import each
 from diffbot_sim.identification.statistics.projection import Projection
 from diffbot_sim.identification.statistics.robust import influence
@@ -175,15 +175,9 @@ class Screen:
         return partial(self.onsets.slopes, space, len(self.fit.u) + names.index(kind.onset))
 
     def _slopes(self, space: Space, point: Array, turned: list[int]) -> Array:
-        return np.stack([self._slope(space, point, index) for index in turned], axis=-1)
-
-    def _slope(self, space: Space, neutral: Array, index: int) -> Array:
-        """Return the slope of the errors along an amount, of both sides where both are valid."""
-        errors = partial(self._errors_at, space)
-        slope = partial(difference, errors, neutral, self.fit.whitened, index)
-        if neutral[index] - AMOUNT < space.bounds()[0][index]:
-            return slope(AMOUNT)
-        return flatter(slope(AMOUNT), slope(-AMOUNT))
+        errors, base, low = partial(self._errors_at, space), self.fit.whitened, space.bounds()[0]
+        slopes = [slope(errors, point, base, index, AMOUNT, low[index]) for index in turned]
+        return np.stack(slopes, axis=-1)
 
     def _best(self, space: Space, options: Sequence['_Option']) -> tuple[Array, ...]:
         """Return the point that promises most, and of the next ones that with the least error."""

@@ -105,11 +105,12 @@ def _judged(
 def _led(
     screen: Screen, leaders: Sequence[_Approach], held_out: Sequence[Stretch], tried: int
 ) -> list[Trial]:
-    """Fit leaders to the end, the best first; others while they may come up to one."""
+    """Fit leaders to the end, the best first; others while they may come up to one accepted."""
     trials = list[Trial]()
     for leader in sorted(leaders, key=lambda a: -a.fall):
-        fits = [trial.fit for trial in trials if trial.accepted and trial.fit]
-        if all(comes_up(leader.near, fit) for fit in fits):
+        accepted = [trial for trial in trials if trial.accepted]
+        best = max(accepted, key=lambda trial: trial.evidence.delta_bic, default=None)
+        if best is None or best.fit is None or comes_up(leader.near, best.fit):
             trials.append(_completed(screen, leader, held_out, tried))
         else:
             trials.append(_not_fitted(screen, leader.kind, leader.fall, BEHIND))

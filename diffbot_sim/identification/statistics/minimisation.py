@@ -59,6 +59,14 @@ def difference(errors: Errors, at: Array, base: Array, index: int, step: float) 
     return np.asarray((errors(moved) - base) / step)
 
 
+def slope(errors: Errors, at: Array, base: Array, index: int, step: float, lowest: float) -> Array:
+    """Return a slope by differences, the flatter one of both sides where both are valid."""
+    one_side = partial(difference, errors, at, base, index)
+    if at[index] - step < lowest:
+        return one_side(step)
+    return flatter(one_side(step), one_side(-step))
+
+
 def flatter(one: Array, other: Array) -> Array:
     """Return at each sample the flatter of its slopes on both sides of a point.
 
