@@ -8,6 +8,7 @@ from typing import NamedTuple
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.lateness import (
+    LATE,
     LATE_EFFECTS,
     lateness_of,
     of_interval_before,
@@ -55,19 +56,16 @@ class Ages:
     def likely(self) -> list[Older]:
         """What may be older than its stamps, the likeliest first.
 
-        So it may where the very structure that was found fits better then; and where it makes
-        needless that the robot is late by less than an interval.
+        So it may where the very structure that was found fits better then; and where it may make
+        needless that the robot is late by less than an interval, or in two ways at once.
         """
         if not self._allowed:
             return []
         interval = min(median_interval(run.odometry.time) for run in self._recordings.learned)
         needless = 0.0 < _lateness(self._final) < interval
         fits = [(o, _timely(fit)) for o, fit in self._taken] if needless else self._again
-        told = [
-            (o, fit)
-            for o, fit in fits
-            if needless or o.worth(self._final, fit) > INDISTINGUISHABLE
-        ]
+        least = -INDISTINGUISHABLE if _ways_late(self._final) > 1 else INDISTINGUISHABLE
+        told = [(o, fit) for o, fit in fits if needless or o.worth(self._final, fit) > least]
         return [o for o, _ in sorted(told, key=lambda pair: -delta_bic(self._final, pair[1]))]
 
     @property
@@ -104,10 +102,15 @@ class Ages:
 def is_taken(older: Older, first: Fit, second: Fit) -> bool:
     """Say whether twists are older than their stamps, by a second fit that takes them so.
 
-    It must be clearly better than the first; or as good, if it needs no late robot.
+    It must be clearly better than the first; or as good, if its robot is late in fewer ways.
     """
-    worth = older.worth(first, second)
-    return worth > INDISTINGUISHABLE or (worth > -INDISTINGUISHABLE and not _lateness(second))
+    worth, simpler = older.worth(first, second), _ways_late(second) < _ways_late(first)
+    return worth > INDISTINGUISHABLE or (worth > -INDISTINGUISHABLE and simpler)
+
+
+def _ways_late(fit: Fit) -> int:
+    values = fit.space.values(fit.u)
+    return sum(values.get(name, 0.0) > 0.0 for name in LATE)
 
 
 def _lateness(fit: Fit) -> float:
