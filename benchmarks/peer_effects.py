@@ -170,6 +170,10 @@ def _settling_stiction(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'settling': 0.15 * size * make.plant.static}
 
 
+def _tight_spot(make: Make, size: float, c: Chance) -> dict[str, float]:
+    return {'tight': 1.0 * size, 'tight_right': c.angle, 'tight_left': 2.0 * c.angle}
+
+
 def _caster(make: Make, size: float, c: Chance) -> dict[str, float]:
     trail, drag = 0.5 * make.plant.radius, 0.5 * size * make.plant.coulomb
     swivel = {'caster_swivel': drag * trail, 'caster_ahead': -1.5 * make.plant.half}
@@ -211,6 +215,7 @@ FOREIGN: dict[str, Law] = {
     'shoves': _shoves,
     'coarse_force': _coarse_force,
     'settling_stiction': _settling_stiction,
+    'tight_spot': _tight_spot,
     'caster': _caster,
     'swinging_load': _swinging_load,
 }

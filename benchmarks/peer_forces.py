@@ -59,11 +59,11 @@ def body_torque(p: Plant, mass: float, v: float, omega: float, yaw: float) -> fl
 
 @njit(cache=True)
 def wheel_friction(
-    p: Plant, time: float, x: float, speed: float, rest: float, right: bool
+    p: Plant, time: float, x: float, angle: float, speed: float, rest: float, right: bool
 ) -> tuple[float, float, float, float]:
     """Return dry friction [N] forward, backward and viscous friction [N·s/m] likewise.
 
-    rest: for how long the wheel has been at rest [s].
+    angle: how far the wheel has turned [rad]; rest: for how long it has been at rest [s].
     """
     aged = 1.0 + p.warming * (1.0 - exp(-time / p.warm_time)) + p.wear * time
     if time >= p.load_time:
@@ -72,6 +72,9 @@ def wheel_friction(
         aged *= 1.0 + p.carpet
     dry = aged * (p.coulomb + (p.static - p.coulomb) * exp(-p.stribeck * abs(speed)))
     dry += p.settling * log(1.0 + rest / SETTLES)
+    if p.tight != 0.0:
+        place = p.tight_right if right else p.tight_left
+        dry *= 1.0 + p.tight * max(cos(angle - place), 0.0) ** 3
     viscous = aged * p.viscous
     if not right:
         dry *= 1.0 + p.left_dry

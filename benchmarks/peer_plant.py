@@ -97,6 +97,11 @@ class Plant(NamedTuple):
     coarse: float = 0.0
     # Dry friction of a wheel at rest [N]: settling ln(1 + rest / SETTLES) more.
     settling: float = 0.0
+    # By which share dry friction of the wheels is larger somewhere in their turn, and where
+    # [rad]: a bent axle rubs there.
+    tight: float = 0.0
+    tight_right: float = 0.0
+    tight_left: float = 0.0
     # A caster: dry friction of rolling [N] and of swivelling [N·m], pivot ahead of the axle, and
     # how far it trails [m].
     caster_roll: float = 0.0

@@ -86,8 +86,8 @@ def _stick_or_slide(
     """Put frictions and wheel speeds into the state, from the speeds that none would leave."""
     own, other = STEP / mass + STEP * p.half**2 / inertia, STEP / mass - STEP * p.half**2 / inertia
     arm, turned = STEP * p.half / inertia, STEP / inertia
-    limits_r = wheel_friction(p, time, s[X], s[RIGHT], s[REST_R], True)
-    limits_l = wheel_friction(p, time, s[X], s[LEFT], s[REST_L], False)
+    limits_r = wheel_friction(p, time, s[X], s[ANGLE_R], s[RIGHT], s[REST_R], True)
+    limits_l = wheel_friction(p, time, s[X], s[ANGLE_L], s[LEFT], s[REST_L], False)
     limits_yaw = (p.yaw_dry, p.yaw_dry, p.yaw_viscous, p.yaw_viscous)
     right, left, omega = s[RIGHT], s[LEFT], 0.0
     f_r, f_l, scrub = s[FRICTION_R], s[FRICTION_L], s[SCRUB]

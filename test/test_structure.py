@@ -104,6 +104,12 @@ def test_caster_that_swivels_is_told_by_the_way_since_turning_back() -> None:
     assert left.basis.variable in ('way_since_reversal', 'turn_since_reversal')
 
 
+def test_wheel_that_rubs_at_a_place_of_its_turn_is_told_by_its_angle() -> None:
+    left = left_by_peer(tight=1.0, tight_right=1.0, tight_left=2.0)
+    assert left.basis.variable == 'friction_over_wheel_angle'
+    assert left.basis.grid[0] == pytest.approx(1.0, rel=0.01)
+
+
 @pytest.mark.parametrize('name', ['v', 'wheel_speed'])
 def test_better_fit_that_the_model_finds_alone_is_no_merit_of_a_form(name: str) -> None:
     run = rehearse(Model(), random_forces(4, 60.0, -9.0, 11.0), SMOOTH, 4)

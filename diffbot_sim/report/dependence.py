@@ -55,13 +55,21 @@ VARIABLES = {
     'time': Variable('time [s]', lambda run: run.time),
 }
 # Radians everywhere, degrees on paper.
-ANGLES = ('heading', 'friction_over_heading', 'wheel_angle', 'rhythm', 'force_steps')
+ANGLES = (
+    'heading',
+    'friction_over_heading',
+    'wheel_angle',
+    'friction_over_wheel_angle',
+    'rhythm',
+    'force_steps',
+)
 # Of variables in which structure without a name is looked for; the others are those above.
 STRUCTURE_LABELS = {
     'turning': 'turn rate ω [rad/s]',
     'cornering': 'v·ω [m/s²]',
     'rhythm': 'phase [°]',
     'wheel_angle': 'right wheel angle times the order [°]',
+    'friction_over_wheel_angle': 'right wheel angle times the order [°]',
     'wheel_speed': 'speed of a wheel [m/s]',
     'rolling': 'speed of a wheel [m/s]',
     'wheel_force': "a wheel's commanded force [N]",

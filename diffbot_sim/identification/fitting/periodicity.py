@@ -37,15 +37,31 @@ MEDIAN = 1.678
 def wheel_orders(fit: Fit) -> tuple[float, ...]:
     """Return the cycles per wheel revolution at which the innovations are strongest."""
     angles, errors = _by_wheel(fit)
-    moving = np.abs(np.diff(angles, axis=0, prepend=angles[:1])) > 0.0
-    weights = np.where(moving, errors, 0.0)
+    return _orders(angles, np.where(_senses(angles) != 0.0, errors, 0.0), 1)
+
+
+def rubbing_orders(fit: Fit, teeth: int) -> tuple[float, ...]:
+    """Return those at which innovations against the motion are strongest.
+
+    teeth: harmonics that are taken together.
+    """
+    angles, errors = _by_wheel(fit)
+    return _orders(angles, _senses(angles) * errors, teeth)
+
+
+def _senses(angles: Array) -> Array:
+    """Return in which sense each wheel turns: 1, -1, or 0 where it rests."""
+    return np.sign(np.diff(angles, axis=0, prepend=angles[:1]))
+
+
+def _orders(angles: Array, errors: Array, teeth: int) -> tuple[float, ...]:
     steps = np.abs(np.diff(angles, axis=0))
     usual = float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else 0.0
     if usual == 0.0:
         return ()
     spacing = 2.0 * np.pi / (FINENESS * float(np.ptp(angles, axis=0).max()))
     highest = min(HIGHEST, 2.0 * np.pi / (SAMPLES_PER_CYCLE * usual))
-    return _strongest((LOWEST, highest), max(spacing, 1e-4), angles, weights)
+    return _strongest((LOWEST, highest), max(spacing, 1e-4), angles, errors, teeth)
 
 
 def rates(fit: Fit) -> tuple[float, ...]:

@@ -11,6 +11,7 @@ from diffbot_sim.identification.fitting.periodicity import (
     force_rates,
     rates,
     repeats,
+    rubbing_orders,
     wheel_orders,
 )
 from diffbot_sim.identification.fitting.views import View
@@ -106,6 +107,12 @@ def _rhythms(fit: Fit) -> list[tuple[float, ...]]:
     return [*_alone(rates)(fit), *repeated]
 
 
+def _rubbing(fit: Fit) -> list[tuple[float, ...]]:
+    """Return single waves of a wheel's angle, and tight spots: waves with their harmonics."""
+    spots = [tuple(o * h for h in range(1, TEETH + 1)) for o in rubbing_orders(fit, TEETH)]
+    return [*((order,) for order in rubbing_orders(fit, 1)), *spots]
+
+
 def _share_of_force(view: View) -> Array:
     return np.asarray(view.force / max(float(np.abs(view.force).max()), 1e-9))
 
@@ -146,6 +153,11 @@ VARIABLES = {
     'wheel_angle': Variable(
         "each wheel's angle, the same again {rate:.3g} times a turn",
         Periodic(lambda view: view.wheel_angle, _alone(wheel_orders), LOOKED_AT),
+        ('wheels',),
+    ),
+    'friction_over_wheel_angle': Variable(
+        "each wheel's angle, against the motion, the same again {rate:.3g} times a turn",
+        Periodic(lambda view: view.wheel_angle, _rubbing, LOOKED_AT, weights=_rolling),
         ('wheels',),
     ),
     'wheel_force': Variable(
