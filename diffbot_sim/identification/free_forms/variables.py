@@ -151,12 +151,12 @@ VARIABLES = {
         WHEELS,
     ),
     'wheel_angle': Variable(
-        "each wheel's angle, the same again {rate:.3g} times a turn",
+        "each wheel's angle, at order {rate:.3g}",
         Periodic(lambda view: view.wheel_angle, _alone(wheel_orders), LOOKED_AT),
         ('wheels',),
     ),
     'friction_over_wheel_angle': Variable(
-        "each wheel's angle, against the motion, the same again {rate:.3g} times a turn",
+        "each wheel's angle, against the motion, at order {rate:.3g}",
         Periodic(lambda view: view.wheel_angle, _rubbing, LOOKED_AT, weights=_rolling),
         ('wheels',),
     ),
