@@ -20,6 +20,7 @@ from diffbot_sim.identification.free_forms.structure import dependences, find_de
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
+from diffbot_sim.physics.effects.direction_dependent_friction import DirectionDependentFriction
 from diffbot_sim.records import Commands, Run
 
 
@@ -39,6 +40,12 @@ def test_weak_force_in_proportion_to_something_is_told_as_a_line() -> None:
     left, *_ = left_by(rehearse(uneven, random_forces(3, 60.0, -9.0, 11.0), ROUGH, 3))
     assert (left.basis.variable, left.basis.axis) == ('wheel_force', 'difference')
     assert left.basis.size == 2
+
+
+def test_force_that_is_always_there_is_told_to_depend_on_nothing() -> None:
+    drive = random_forces(3, 60.0, -9.0, 11.0)
+    left, *_ = left_by(acted_otherwise(drive, drive.force + 0.2, ROUGH))
+    assert (left.basis.variable, left.basis.axis) == ('constant', 'v')
 
 
 def test_forces_in_steps_are_told_with_the_step() -> None:
@@ -102,6 +109,12 @@ def test_caster_that_swivels_is_told_by_the_way_since_turning_back() -> None:
     pivot = {'caster_ahead': -0.3, 'caster_trail': 0.04}
     left = left_by_peer(caster_swivel=0.03, **pivot)
     assert left.basis.variable in ('way_since_reversal', 'turn_since_reversal')
+
+
+def test_friction_that_differs_backward_is_told_as_a_push_one_way() -> None:
+    worn = Model().with_effect(DirectionDependentFriction(dry=-0.3))
+    left, *_ = left_by(rehearse(worn, random_forces(3, 60.0, -11.0, 11.0), SMOOTH, 3))
+    assert (left.basis.variable, left.basis.axis) == ('rolling_one_way', 'wheels')
 
 
 def test_wheel_that_rubs_at_a_place_of_its_turn_is_told_by_its_angle() -> None:

@@ -65,6 +65,7 @@ ANGLES = (
 )
 # Of variables in which structure without a name is looked for; the others are those above.
 STRUCTURE_LABELS = {
+    'constant': 'time [s]',
     'turning': 'turn rate ω [rad/s]',
     'cornering': 'v·ω [m/s²]',
     'rhythm': 'phase [°]',
@@ -72,6 +73,7 @@ STRUCTURE_LABELS = {
     'friction_over_wheel_angle': 'right wheel angle times the order [°]',
     'wheel_speed': 'speed of a wheel [m/s]',
     'rolling': 'speed of a wheel [m/s]',
+    'rolling_one_way': 'speed of a wheel, either way [m/s]',
     'wheel_force': "a wheel's commanded force [N]",
     'force_steps': 'command over its step, as a phase [°]',
     'rest_before': 'rest of a wheel before it starts [ln s]',

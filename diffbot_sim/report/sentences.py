@@ -89,8 +89,8 @@ def structure(left: Structure) -> str:
     """Say how strong the unexplained structure is and how sure."""
     unit = 'N·m' if left.axis == 'omega' else 'N'
     return (
-        f'{significant(left.strength)} {unit} (root mean square) depend on '
-        f'{left.variable.replace("_", " ")}; p {p_text(left.p_value)}, robust against serial '
+        f'{significant(left.strength)} {unit} root mean square '
+        f'({left.variable.replace("_", " ")}); p {p_text(left.p_value)}, robust against serial '
         'correlation.'
     )
 

@@ -16,7 +16,7 @@ from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForc
 from diffbot_sim.physics.model import Model
 
 # What the table of a structure runs over, where that is not the structure's own variable.
-TABLE_OF = {'rolling': 'wheel_speed', 'turning': 'omega'}
+TABLE_OF = {'constant': 'time', 'rolling': 'wheel_speed', 'turning': 'omega'}
 # The term is kept when it lowers the held-out error, v and ω together, by this share.
 WORTHWHILE = 0.02
 # An error [m/s, rad/s] as good as none, as of the yaw rate of what cannot turn.

@@ -58,7 +58,8 @@ def find_dependences(screen: Screen, held_out: Sequence[Stretch]) -> list[Depend
     The one of fewest functions, which says most, comes first.
     """
     tried = dependences(screen)
-    promising = [d for d in tried if not is_chance(d.p_value, len(tried))]
+    # First order promises too little on a rough floor: how many were tried counts after the fit.
+    promising = [d for d in tried if not is_chance(d.p_value, 1)]
     fitted = [realised(screen.fit, d) for d in _best_of_each(promising)[:FOLLOWED]]
     beyond = (d for d in fitted if _is_beyond_doubt(screen, d, held_out, len(tried)))
     fair = [against_the_model(screen.fit, d) for d in beyond]

@@ -20,6 +20,7 @@ from diffbot_sim.identification.free_forms.forms import (
     BENT_KNOTS,
     FEW_KNOTS,
     FINE_KNOTS,
+    Constant,
     Growth,
     Odd,
     Of,
@@ -42,7 +43,7 @@ from diffbot_sim.records import Array
 
 # Rates that differ by a line width, among which the strongest were chosen; a generous count.
 LOOKED_AT = 1000
-Form = Piecewise | Growth | Spans | TwoSided | Odd | Periodic | Past | Swinging
+Form = Constant | Piecewise | Growth | Spans | TwoSided | Odd | Periodic | Past | Swinging
 BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
 
 
@@ -70,6 +71,10 @@ def _time_of_wheels(view: View) -> Array:
 
 def _rolling(view: View) -> Array:
     return np.sign(view.wheel_speed)
+
+
+def _rolls(view: View) -> Array:
+    return np.abs(_rolling(view))
 
 
 def _turning(view: View) -> Array:
@@ -118,6 +123,7 @@ def _share_of_force(view: View) -> Array:
 
 
 VARIABLES = {
+    'constant': Variable('nothing (it is always the same)', Constant(), BODY),
     'v': Variable('the speed', Piecewise(lambda view: view.v), BODY),
     'omega': Variable('the yaw rate', Piecewise(lambda view: view.omega), BODY),
     'turning': Variable(
@@ -148,6 +154,11 @@ VARIABLES = {
     'rolling': Variable(
         "each wheel's speed (alike forward and backward)",
         Odd(lambda view: view.wheel_speed),
+        WHEELS,
+    ),
+    'rolling_one_way': Variable(
+        "each wheel's speed (pushing the same way forward and backward)",
+        Piecewise(lambda view: np.abs(view.wheel_speed), _rolls),
         WHEELS,
     ),
     'wheel_angle': Variable(
