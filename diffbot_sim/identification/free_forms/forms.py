@@ -18,6 +18,8 @@ from diffbot_sim.records import Array
 # Numbers of knots: a line, of few functions, shows what is weak; many show what is of any form.
 # Bent ones are for what lines do not tell apart: friction at both sides of zero is a line already.
 KNOTS, BENT_KNOTS, FEW_KNOTS, FINE_KNOTS = (2, 6), (3, 6), (2, 4), (2, 6, 20)
+# What is alike at all times is a gain, or friction, that the model has.
+GROWTH_KNOTS = (2, 3, 6)
 # Edges of the spans in which the past of a command is averaged [s].
 PAST = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
 

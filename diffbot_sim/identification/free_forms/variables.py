@@ -17,9 +17,9 @@ from diffbot_sim.identification.fitting.periodicity import (
 from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.identification.free_forms.floor import Order, by_place, in_time
 from diffbot_sim.identification.free_forms.forms import (
-    BENT_KNOTS,
     FEW_KNOTS,
     FINE_KNOTS,
+    GROWTH_KNOTS,
     Constant,
     Growth,
     Odd,
@@ -207,11 +207,11 @@ VARIABLES = {
     ),
     'force_over_time': Variable(
         'time, in proportion to the commanded force',
-        Piecewise(_time_of_wheels, _share_of_force, BENT_KNOTS),
+        Growth(_time_of_wheels, _share_of_force, GROWTH_KNOTS),
         WHEELS,
     ),
     'friction_over_time': Variable(
-        'time, against the motion', Piecewise(_time_of_wheels, _rolling, BENT_KNOTS), WHEELS
+        'time, against the motion', Growth(_time_of_wheels, _rolling, GROWTH_KNOTS), WHEELS
     ),
     'hill_x': Variable(
         'where along x it is, like the pull of a hill',
