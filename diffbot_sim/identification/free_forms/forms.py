@@ -28,6 +28,27 @@ Of = Callable[[View], Array]
 
 
 @dataclass(frozen=True)
+class Constant:
+    """The same at every sample."""
+
+    looked_at: ClassVar[int] = 1
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return the first and the last moment [s]."""
+        ends = np.concatenate([view.stretch.time[[0, -1]] for view in views])
+        return [np.array([ends.min(), ends.max()])]
+
+    def columns(self, view: View, ends: Array) -> Array:
+        """Return ones along a stretch."""
+        del ends
+        return np.ones((len(view.stretch.time), 1, 1))
+
+    def curve(self, ends: Array) -> tuple[Array, Array]:
+        """Return both ends, and ones there."""
+        return ends, np.ones((2, 1))
+
+
+@dataclass(frozen=True)
 class Piecewise:
     """Piecewise linear in a variable, in proportion to weights.
 
@@ -59,27 +80,6 @@ class Piecewise:
     def curve(self, knots: Array) -> tuple[Array, Array]:
         """Return points of the variable and all functions there."""
         return knots, np.eye(len(knots))
-
-
-@dataclass(frozen=True)
-class Constant:
-    """The same at every sample."""
-
-    looked_at: ClassVar[int] = 1
-
-    def grids(self, views: Sequence[View]) -> list[Array]:
-        """Return the first and the last moment [s]."""
-        ends = np.concatenate([view.stretch.time[[0, -1]] for view in views])
-        return [np.array([ends.min(), ends.max()])]
-
-    def columns(self, view: View, ends: Array) -> Array:
-        """Return ones along a stretch."""
-        del ends
-        return np.ones((len(view.stretch.time), 1, 1))
-
-    def curve(self, ends: Array) -> tuple[Array, Array]:
-        """Return both ends, and ones there."""
-        return ends, np.ones((2, 1))
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -108,14 +109,17 @@ def _alone(rates: Callable[[Fit], Sequence[float]]) -> Callable[[Fit], list[tupl
 
 def _rhythms(fit: Fit) -> list[tuple[float, ...]]:
     """Return single waves, and short pushes: waves with their harmonics, and their mean."""
-    repeated = ((*(rate * h for h in range(1, TEETH + 1)), 0.0) for rate in repeats(fit))
-    return [*_alone(rates)(fit), *repeated]
+    return [*_alone(rates)(fit), *((*_harmonics(rate), 0.0) for rate in repeats(fit))]
 
 
 def _rubbing(fit: Fit) -> list[tuple[float, ...]]:
     """Return single waves of a wheel's angle, and tight spots: waves with their harmonics."""
-    spots = [tuple(o * h for h in range(1, TEETH + 1)) for o in rubbing_orders(fit, TEETH)]
-    return [*((order,) for order in rubbing_orders(fit, 1)), *spots]
+    waves = _alone(partial(rubbing_orders, teeth=1))(fit)
+    return [*waves, *map(_harmonics, rubbing_orders(fit, TEETH))]
+
+
+def _harmonics(rate: float) -> tuple[float, ...]:
+    return tuple(rate * h for h in range(1, TEETH + 1))
 
 
 def _share_of_force(view: View) -> Array:
