@@ -126,9 +126,9 @@ def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence
     """Return a free-form force of which effects capture a part only, if there is one.
 
     rest: the fit that lacks the effects, final: the one that has them. An effect of the right kind
-    needs fewer parameters than any free form, and leaves nothing of it. One that only resembles
-    what acts is outdone, takes its worth from the free form, and leaves the rest of it. Structure
-    that is there with and without the effect says nothing against its name.
+    needs fewer parameters than any free form, and leaves of it what chance would. One that only
+    resembles what acts is outdone, takes its worth from the free form, and leaves the rest of it.
+    Structure that is there with and without the effect says nothing against its name.
     """
     screen = Screen(rest)
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
@@ -140,7 +140,7 @@ def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence
         return None
     whole, left = (_acting_in(fit, best, final.sigma) for fit in (rest, final))
     taken = whole.fall - left.fall
-    stands = worth_of(left, final) <= OUTDONE or taken <= TAKEN_SHARE * worth
+    stands = worth_of(left, final) <= 0.0 or taken <= TAKEN_SHARE * worth
     return None if stands else whole
 
 

@@ -1,12 +1,12 @@
 """At which periods of time or wheel angle a residual repeats: cheap, before any simulation."""
 
+from collections.abc import Sequence
 from math import ceil
 
 import numpy as np
 from scipy.special import gammainccinv
 
-from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.fitting.views import views
+from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.records import Array
 
 # Orders [cycles per revolution] that are looked at, and how many of the strongest are kept.
@@ -34,18 +34,18 @@ TINY = 1e-300
 MEDIAN = 1.678
 
 
-def wheel_orders(fit: Fit) -> tuple[float, ...]:
+def wheel_orders(seen: Sequence[View]) -> tuple[float, ...]:
     """Return the cycles per wheel revolution at which the innovations are strongest."""
-    angles, errors = _by_wheel(fit)
+    angles, errors = _by_wheel(seen)
     return _orders(angles, np.where(_senses(angles) != 0.0, errors, 0.0), 1)
 
 
-def rubbing_orders(fit: Fit, teeth: int) -> tuple[float, ...]:
+def rubbing_orders(seen: Sequence[View], teeth: int) -> tuple[float, ...]:
     """Return those at which innovations against the motion are strongest.
 
     teeth: harmonics that are taken together.
     """
-    angles, errors = _by_wheel(fit)
+    angles, errors = _by_wheel(seen)
     return _orders(angles, _senses(angles) * errors, teeth)
 
 
@@ -64,19 +64,18 @@ def _orders(angles: Array, errors: Array, teeth: int) -> tuple[float, ...]:
     return _strongest((LOWEST, highest), max(spacing, 1e-4), angles, errors, teeth)
 
 
-def rates(fit: Fit) -> tuple[float, ...]:
+def rates(seen: Sequence[View]) -> tuple[float, ...]:
     """Return the cycles per second at which the innovations are strongest."""
-    return _rates(fit, 1)
+    return _rates(seen, 1)
 
 
-def repeats(fit: Fit) -> tuple[float, ...]:
+def repeats(seen: Sequence[View]) -> tuple[float, ...]:
     """Return the cycles per second of which several harmonics together are strongest."""
-    return _rates(fit, TEETH)
+    return _rates(seen, TEETH)
 
 
-def force_rates(fit: Fit) -> tuple[float, ...]:
+def force_rates(seen: Sequence[View]) -> tuple[float, ...]:
     """Return the cycles per newton of commanded force at which the innovations are strongest."""
-    seen = views(fit, fit.stretches)
     force = np.concatenate([view.force for view in seen])
     if len(np.unique(force)) < FEWEST_FORCES:
         return ()
@@ -86,11 +85,11 @@ def force_rates(fit: Fit) -> tuple[float, ...]:
     return _strongest(band, spacing, 2.0 * np.pi * force, errors, level=STEP_LEVEL)
 
 
-def _rates(fit: Fit, teeth: int) -> tuple[float, ...]:
-    time = np.concatenate([stretch.time for stretch in fit.stretches])
-    errors = np.concatenate([v.innovation / fit.sigma for v in views(fit, fit.stretches)])
-    spacing = 1.0 / (FINENESS * max(float(np.ptp(s.time)) for s in fit.stretches))
-    interval = max(stretch.interval for stretch in fit.stretches)
+def _rates(seen: Sequence[View], teeth: int) -> tuple[float, ...]:
+    time = np.concatenate([view.stretch.time for view in seen])
+    errors = np.concatenate([view.innovation / view.fit.sigma for view in seen])
+    spacing = 1.0 / (FINENESS * max(float(np.ptp(view.stretch.time)) for view in seen))
+    interval = max(view.stretch.interval for view in seen)
     highest = min(HIGHEST_RATE, 1.0 / (SAMPLES_PER_CYCLE * interval))
     # Slower than this it would be a drift.
     lowest = FEWEST_CYCLES * FINENESS * spacing
@@ -98,9 +97,8 @@ def _rates(fit: Fit, teeth: int) -> tuple[float, ...]:
     return _strongest((lowest, highest), spacing, turns, errors, teeth)
 
 
-def _by_wheel(fit: Fit) -> tuple[Array, Array]:
+def _by_wheel(seen: Sequence[View]) -> tuple[Array, Array]:
     """Return wheel angles [rad] and the wheels' share of the innovations, columns right, left."""
-    seen = views(fit, fit.stretches)
     angles, errors = zip(*((v.wheel_angle, v.innovation @ v.mix) for v in seen), strict=True)
     return np.concatenate(angles), np.concatenate(errors)
 

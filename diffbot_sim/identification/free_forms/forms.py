@@ -11,7 +11,6 @@ from typing import ClassVar
 
 import numpy as np
 
-from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.records import Array
 
@@ -25,6 +24,8 @@ PAST = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
 
 # What a variable is at every sample, shape (k,) or (k, 2).
 Of = Callable[[View], Array]
+# Sets of rates by which an angle is multiplied, for stretches that were seen.
+Waves = Callable[[Sequence[View]], Sequence[tuple[float, ...]]]
 
 
 @dataclass(frozen=True)
@@ -183,14 +184,14 @@ class Periodic:
     """
 
     of: Of
-    waves: Callable[[Fit], Sequence[tuple[float, ...]]] = lambda fit: [(1.0, 2.0)]
+    waves: Waves = lambda seen: [(1.0, 2.0)]
     looked_at: int = 1
     points: int = 25
     weights: Of = lambda view: np.ones((1, 1))
 
     def grids(self, views: Sequence[View]) -> list[Array]:
         """Return the sets of rates to be tried."""
-        return [np.array(rates) for rates in self.waves(views[0].fit)]
+        return [np.array(rates) for rates in self.waves(views)]
 
     def columns(self, view: View, rates: Array) -> Array:
         """Evaluate waves along a stretch, those of each wheel on their own."""

@@ -6,7 +6,6 @@ from functools import partial
 
 import numpy as np
 
-from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.periodicity import (
     TEETH,
     force_rates,
@@ -30,6 +29,7 @@ from diffbot_sim.identification.free_forms.forms import (
     Piecewise,
     Spans,
     TwoSided,
+    Waves,
 )
 from diffbot_sim.identification.free_forms.starting import rest_before, started
 from diffbot_sim.identification.free_forms.swinging import Swinging
@@ -102,20 +102,20 @@ def _place(index: int) -> Of:
     return lambda view: np.repeat(_along(index)(view)[:, None], 2, axis=1)
 
 
-def _alone(rates: Callable[[Fit], Sequence[float]]) -> Callable[[Fit], list[tuple[float, ...]]]:
+def _alone(rates: Callable[[Sequence[View]], Sequence[float]]) -> Waves:
     """Return what gives each rate as a wave of its own."""
-    return lambda fit: [(rate,) for rate in rates(fit)]
+    return lambda seen: [(rate,) for rate in rates(seen)]
 
 
-def _rhythms(fit: Fit) -> list[tuple[float, ...]]:
+def _rhythms(seen: Sequence[View]) -> list[tuple[float, ...]]:
     """Return single waves, and short pushes: waves with their harmonics, and their mean."""
-    return [*_alone(rates)(fit), *((*_harmonics(rate), 0.0) for rate in repeats(fit))]
+    return [*_alone(rates)(seen), *((*_harmonics(rate), 0.0) for rate in repeats(seen))]
 
 
-def _rubbing(fit: Fit) -> list[tuple[float, ...]]:
+def _rubbing(seen: Sequence[View]) -> list[tuple[float, ...]]:
     """Return single waves of a wheel's angle, and tight spots: waves with their harmonics."""
-    waves = _alone(partial(rubbing_orders, teeth=1))(fit)
-    return [*waves, *map(_harmonics, rubbing_orders(fit, TEETH))]
+    waves = _alone(partial(rubbing_orders, teeth=1))(seen)
+    return [*waves, *map(_harmonics, rubbing_orders(seen, TEETH))]
 
 
 def _harmonics(rate: float) -> tuple[float, ...]:

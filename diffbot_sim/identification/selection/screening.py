@@ -116,7 +116,7 @@ class Screen:
         return Excitation(
             force=largest_command(stretches),
             duration=max(float(s.time[-1]) for s in stretches),
-            orders=wheel_orders(self.fit),
+            orders=wheel_orders(seen),
             power=max(0.01, *(float((v.force * v.wheel_speed).max()) for v in seen)),
         )
 
