@@ -31,7 +31,7 @@ def test_parts_of_a_run_may_confirm_what_its_end_leaves_open() -> None:
 def test_held_out_data_must_not_speak_against_what_parts_of_a_run_tell() -> None:
     lost = Evidence(60.0, 1e-15, 0.004, -0.1, 0.9, 1e-4)
     assert judge(lost, tried=16) == 'does not predict held-out data better'
-    silent = replace(lost, held_out_gain=0.0, p_held_out=1.0)  # where it does not act at all
+    silent = replace(lost, held_out_gain=0.0, p_held_out=nan)  # where it does not act at all
     assert judge(silent, tried=16) == SUPPORTED
 
 

@@ -26,7 +26,7 @@ from diffbot_sim.identification.statistics.gains import chance_of, folds_chance
 from diffbot_sim.identification.statistics.guards import (
     BLOCK_LEVEL,
     EITHER_LEVEL,
-    best_look,
+    elsewhere,
     is_chance,
     lasting,
     may_be_chance,
@@ -85,13 +85,13 @@ def _is_beyond_doubt(
         return False
     if dependence.p_block > EITHER_LEVEL:
         return False
-    elsewhere = _folds_chance(screen, dependence.basis)
+    parts = _folds_chance(screen, dependence.basis)
     # A rough floor is the same again where the robot comes back, so that held-out data confirm
     # nothing: other parts of the floor must, and be as sure as blocks.
     if VARIABLES[dependence.basis.variable].order is by_place:
-        return elsewhere <= BLOCK_LEVEL and lasting(dependence.p_block, elsewhere)
-    elsewhere = best_look(elsewhere, _held_out_chance(screen.fit, dependence, held_out))
-    return lasting(dependence.p_block, elsewhere)
+        return parts <= BLOCK_LEVEL and lasting(dependence.p_block, parts)
+    held = _held_out_chance(screen.fit, dependence, held_out)
+    return lasting(dependence.p_block, elsewhere(held, parts))
 
 
 def _may_be_chance(dependence: Dependence, fit: Fit, tried: int) -> bool:

@@ -17,6 +17,7 @@ from diffbot_sim.identification.fitting.periodicity import (
 from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.identification.free_forms.floor import Order, by_place, in_time
 from diffbot_sim.identification.free_forms.forms import (
+    BENT_KNOTS,
     FEW_KNOTS,
     FINE_KNOTS,
     GROWTH_KNOTS,
@@ -44,6 +45,8 @@ from diffbot_sim.records import Array
 
 # Rates that differ by a line width, among which the strongest were chosen; a generous count.
 LOOKED_AT = 1000
+# The past that a command is held against, to tell how far it has changed [s].
+JUST_NOW = 0.2
 Form = Constant | Piecewise | Growth | Spans | TwoSided | Odd | Periodic | Past | Swinging
 BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
 
@@ -126,6 +129,20 @@ def _share_of_force(view: View) -> Array:
     return np.asarray(view.force / max(float(np.abs(view.force).max()), 1e-9))
 
 
+def _sizes(view: View) -> Array:
+    return np.abs(view.wheel_speed)
+
+
+def _drive(view: View) -> Array:
+    """How hard each wheel is driven, or, below zero, braked [N]."""
+    return np.asarray(view.force * _rolling(view))
+
+
+def _change(view: View) -> Array:
+    """How far each command is from its own past [N]."""
+    return np.asarray(view.force - view.past_force(0.0, JUST_NOW))
+
+
 VARIABLES = {
     'constant': Variable('nothing (it is always the same)', Constant(), BODY),
     'v': Variable('the speed', Piecewise(lambda view: view.v), BODY),
@@ -162,7 +179,7 @@ VARIABLES = {
     ),
     'rolling_one_way': Variable(
         "each wheel's speed (pushing the same way forward and backward)",
-        Piecewise(lambda view: np.abs(view.wheel_speed), _rolls),
+        Piecewise(_sizes, _rolls),
         WHEELS,
     ),
     'wheel_angle': Variable(
@@ -182,6 +199,19 @@ VARIABLES = {
         "each wheel's commanded force, as if it came in steps of {period:.3g} N",
         Periodic(lambda view: 2.0 * np.pi * view.force, _alone(force_rates), LOOKED_AT),
         ('wheels',),
+    ),
+    'drive': Variable(
+        'how hard each wheel is driven or braked, against the motion',
+        Piecewise(_drive, _rolling, BENT_KNOTS),
+        ('wheels',),
+    ),
+    'force_over_speed': Variable(
+        "each wheel's speed, in proportion to the commanded force",
+        Growth(_sizes, _share_of_force, GROWTH_KNOTS),
+        ('wheels',),
+    ),
+    'force_change': Variable(
+        "how far each wheel's commanded force has just changed", Odd(_change), ('wheels',)
     ),
     'past_force': Variable("the past of each wheel's commanded force", Past(), WHEELS),
     'rest_before': Variable(

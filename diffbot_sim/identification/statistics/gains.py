@@ -1,5 +1,7 @@
 """Whether predictions gain by something: signed ranks over blocks of samples."""
 
+from math import nan
+
 import numpy as np
 from scipy import stats
 
@@ -19,11 +21,12 @@ MOST_OF_SAMPLE = 4.0
 def block_gain(gain: Array) -> tuple[float, float]:
     """Return the mean of gains per sample and the p-value of its being above zero.
 
-    Signed ranks over blocks: a single block with a large gain, or loss, cannot decide.
+    Signed ranks over blocks: a single block with a large gain, or loss, cannot decide. Where
+    nothing gains or loses they prove nothing: nan.
     """
     blocks = [block.mean() for block in np.array_split(gain, BLOCKS)]
     if not np.any(blocks):
-        return 0.0, 1.0
+        return 0.0, nan
     return float(gain.mean()), float(stats.wilcoxon(blocks, alternative='greater').pvalue)
 
 

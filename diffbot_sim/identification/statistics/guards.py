@@ -1,5 +1,7 @@
 """How sure an answer must be: the same for a name and for a force that has none."""
 
+from math import isnan
+
 import numpy as np
 from scipy import stats
 
@@ -11,6 +13,11 @@ LIKELIHOOD_LEVEL, BLOCK_LEVEL, ELSEWHERE_LEVEL = 1e-3, 1e-2, 0.05
 # their levels: where one is beyond all doubt, the other need not be so strict.
 EITHER_LEVEL = 0.05
 BOTH_LEVEL = float(stats.combine_pvalues([BLOCK_LEVEL, ELSEWHERE_LEVEL]).pvalue)
+
+# Held-out data are a fifth of a run and know half as much as parts of the rest of it.
+WEIGHTS = (1.0, 2.0)
+# Signed ranks of twenty blocks are never surer than this.
+SUREST = 2.0**-20
 
 # Data whose gain is as likely by chance as this rather speak against what they should confirm.
 AGAINST = 0.5
@@ -28,15 +35,30 @@ def may_be_chance(p_value: float, delta_bic: float, tried: int) -> bool:
 
 def best_look(*chances: float) -> float:
     """Return the chance of the least of these chances: who looks often sees more."""
-    return min(1.0, len(chances) * min(chances, default=1.0))
+    return float(1.0 - (1.0 - min(chances, default=1.0)) ** len(chances))
 
 
-def lasting(p_block: float, elsewhere: float) -> bool:
+def elsewhere(held_out: float, parts: float) -> float:
+    """Return the chance of what two witnesses say: Stouffer's method.
+
+    held_out: held-out data; parts: parts of the runs, predicted from others. nan where one proves
+    nothing. Neither knows of the other.
+    """
+    pairs = zip((held_out, parts), WEIGHTS, strict=True)
+    known = [(chance, weight) for chance, weight in pairs if not isnan(chance)]
+    if not known:
+        return 1.0
+    chances, weights = zip(*known, strict=True)
+    chances = np.clip(chances, SUREST, 1.0 - SUREST)
+    return float(stats.combine_pvalues(chances, 'stouffer', weights).pvalue)
+
+
+def lasting(p_block: float, p_elsewhere: float) -> bool:
     """Say whether something is neither a passing disturbance nor a fit to one: Fisher's method.
 
-    elsewhere: the chance of what it predicts of data that it was not fitted to.
+    p_elsewhere: the chance of what it predicts of data that it was not fitted to.
     """
-    if max(p_block, elsewhere) > EITHER_LEVEL:
+    if max(p_block, p_elsewhere) > EITHER_LEVEL:
         return False
-    both = np.maximum([p_block, elsewhere], np.finfo(float).tiny)
+    both = np.maximum([p_block, p_elsewhere], np.finfo(float).tiny)
     return bool(stats.combine_pvalues(both).pvalue <= BOTH_LEVEL)
