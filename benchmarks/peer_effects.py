@@ -166,6 +166,14 @@ def _coarse_force(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'coarse': 0.1 * size * make.push}
 
 
+def _slew_limit(make: Make, size: float, c: Chance) -> dict[str, float]:
+    return {'slew': 8.0 * make.push / size}
+
+
+def _gear_loss(make: Make, size: float, c: Chance) -> dict[str, float]:
+    return {'gear': min(0.15 * size, 0.5)}
+
+
 def _settling_stiction(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'settling': 0.15 * size * make.plant.static}
 
@@ -214,6 +222,8 @@ FOREIGN: dict[str, Law] = {
     'repeated_push': _repeated_push,
     'shoves': _shoves,
     'coarse_force': _coarse_force,
+    'slew_limit': _slew_limit,
+    'gear_loss': _gear_loss,
     'settling_stiction': _settling_stiction,
     'tight_spot': _tight_spot,
     'caster': _caster,

@@ -22,6 +22,13 @@ def acting(p: Plant, command: float) -> float:
 
 
 @njit(cache=True)
+def followed(p: Plant, motor: float, aim: float, step: float) -> float:
+    """Return a motor's force [N] a step [s] later: it lags, and changes only so fast."""
+    most = p.slew * step
+    return motor + min(max((aim - motor) * step / (p.lag + step), -most), most)
+
+
+@njit(cache=True)
 def traction(p: Plant, time: float, motor: float, angle: float, right: bool) -> float:
     """Return what drives a wheel [N], from its motor's force [N] and its angle [rad]."""
     gain = p.gain_right if right else p.gain_left
@@ -59,11 +66,19 @@ def body_torque(p: Plant, mass: float, v: float, omega: float, yaw: float) -> fl
 
 @njit(cache=True)
 def wheel_friction(
-    p: Plant, time: float, x: float, angle: float, speed: float, rest: float, right: bool
+    p: Plant,
+    time: float,
+    x: float,
+    angle: float,
+    speed: float,
+    rest: float,
+    force: float,
+    right: bool,
 ) -> tuple[float, float, float, float]:
     """Return dry friction [N] forward, backward and viscous friction [N·s/m] likewise.
 
-    angle: how far the wheel has turned [rad]; rest: for how long it has been at rest [s].
+    angle: how far the wheel has turned [rad]; rest: for how long it has been at rest [s]; force:
+    what drives it [N].
     """
     aged = 1.0 + p.warming * (1.0 - exp(-time / p.warm_time)) + p.wear * time
     if time >= p.load_time:
@@ -71,7 +86,7 @@ def wheel_friction(
     if time >= p.carpet_time:
         aged *= 1.0 + p.carpet
     dry = aged * (p.coulomb + (p.static - p.coulomb) * exp(-p.stribeck * abs(speed)))
-    dry += p.settling * log(1.0 + rest / SETTLES)
+    dry += p.settling * log(1.0 + rest / SETTLES) + p.gear * abs(force)
     if p.tight != 0.0:
         place = p.tight_right if right else p.tight_left
         dry *= 1.0 + p.tight * max(cos(angle - place), 0.0) ** 3

@@ -95,6 +95,10 @@ class Plant(NamedTuple):
     shove_first: float = 1.0
     # Steps in which the force comes [N].
     coarse: float = 0.0
+    # By how much a force changes in a second at most [N/s].
+    slew: float = inf
+    # Share of the force that a gear carries by which its dry friction grows.
+    gear: float = 0.0
     # Dry friction of a wheel at rest [N]: settling ln(1 + rest / SETTLES) more.
     settling: float = 0.0
     # By which share dry friction of the wheels is larger somewhere in their turn, and where

@@ -10,10 +10,13 @@ from math import cos, sin
 import numpy as np
 from numba import njit
 from peer_attached import caster, swinging
-from peer_forces import acting, body_force, body_torque, traction, wheel_friction
+from peer_forces import acting, body_force, body_torque, followed, traction, wheel_friction
 from peer_plant import Plant
 
 from diffbot_sim.records import Array
+
+# Dry friction forward, backward and viscous friction likewise.
+Limits = tuple[float, float, float, float]
 
 STEP = 2e-4  # [s]
 # The iteration ends after so many sweeps, or when no force changes by more [N].
@@ -41,9 +44,8 @@ def advance(
         time, newest = s[COUNT] * STEP, int(s[COUNT]) % len(way)
         way[newest, 0], way[newest, 1] = right, left
         oldest = (newest + 1) % len(way)
-        follow = STEP / (p.lag + STEP)
-        s[MOTOR_R] += follow * (acting(p, way[oldest, 0]) - s[MOTOR_R])
-        s[MOTOR_L] += follow * (acting(p, way[oldest, 1]) - s[MOTOR_L])
+        s[MOTOR_R] = followed(p, s[MOTOR_R], acting(p, way[oldest, 0]), STEP)
+        s[MOTOR_L] = followed(p, s[MOTOR_L], acting(p, way[oldest, 1]), STEP)
         force_r = push[0] + traction(p, time, s[MOTOR_R], s[ANGLE_R], True)
         force_l = push[1] + traction(p, time, s[MOTOR_L], s[ANGLE_L], False)
         _roll(p, s, time, force_r, force_l)
@@ -64,7 +66,10 @@ def _roll(p: Plant, s: Array, time: float, force_r: float, force_l: float) -> No
     torque = body_torque(p, mass, v, omega, s[YAW]) + p.half * (force_r - force_l) + turning
     around = p.half * torque * STEP / inertia
     old_r, old_l = s[RIGHT], s[LEFT]
-    _stick_or_slide(p, s, time, mass, inertia, old_r + along + around, old_l + along - around)
+    limits_r = wheel_friction(p, time, s[X], s[ANGLE_R], old_r, s[REST_R], force_r, True)
+    limits_l = wheel_friction(p, time, s[X], s[ANGLE_L], old_l, s[REST_L], force_l, False)
+    free_r, free_l = old_r + along + around, old_l + along - around
+    _stick_or_slide(p, s, (mass, inertia), (limits_r, limits_l), free_r, free_l)
     mean_r, mean_l = 0.5 * (old_r + s[RIGHT]) * STEP, 0.5 * (old_l + s[LEFT]) * STEP
     way, turn = 0.5 * (mean_r + mean_l), 0.5 * (mean_r - mean_l) / p.half
     s[X] += way * cos(s[YAW] + 0.5 * turn)
@@ -81,13 +86,21 @@ def _roll(p: Plant, s: Array, time: float, force_r: float, force_l: float) -> No
 
 @njit(cache=True)
 def _stick_or_slide(
-    p: Plant, s: Array, time: float, mass: float, inertia: float, free_r: float, free_l: float
+    p: Plant,
+    s: Array,
+    body: tuple[float, float],
+    limits: tuple[Limits, Limits],
+    free_r: float,
+    free_l: float,
 ) -> None:
-    """Put frictions and wheel speeds into the state, from the speeds that none would leave."""
+    """Put frictions and wheel speeds into the state, from the speeds that none would leave.
+
+    body: mass [kg] and inertia [kg·m²]; limits: of the right and the left wheel.
+    """
+    mass, inertia = body
+    limits_r, limits_l = limits
     own, other = STEP / mass + STEP * p.half**2 / inertia, STEP / mass - STEP * p.half**2 / inertia
     arm, turned = STEP * p.half / inertia, STEP / inertia
-    limits_r = wheel_friction(p, time, s[X], s[ANGLE_R], s[RIGHT], s[REST_R], True)
-    limits_l = wheel_friction(p, time, s[X], s[ANGLE_L], s[LEFT], s[REST_L], False)
     limits_yaw = (p.yaw_dry, p.yaw_dry, p.yaw_viscous, p.yaw_viscous)
     right, left, omega = s[RIGHT], s[LEFT], 0.0
     f_r, f_l, scrub = s[FRICTION_R], s[FRICTION_L], s[SCRUB]
@@ -106,9 +119,7 @@ def _stick_or_slide(
 
 
 @njit(cache=True)
-def _contact(
-    free: float, compliance: float, limits: tuple[float, float, float, float]
-) -> tuple[float, float]:
+def _contact(free: float, compliance: float, limits: Limits) -> tuple[float, float]:
     """Return speed and friction of one contact, from its speed without friction.
 
     compliance: fall of its speed for each unit of its friction.

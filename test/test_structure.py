@@ -21,6 +21,7 @@ from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
 from diffbot_sim.physics.effects.direction_dependent_friction import DirectionDependentFriction
+from diffbot_sim.physics.effects.transmission_loss import TransmissionLoss
 from diffbot_sim.records import Commands, Run
 
 
@@ -55,6 +56,23 @@ def test_forces_in_steps_are_told_with_the_step() -> None:
     left, *_ = left_by(acted_otherwise(smooth, 1.7 * np.round(smooth.force / 1.7)))
     assert left.basis.variable == 'force_steps'
     assert 1.0 / left.basis.grid[0] == pytest.approx(1.7, rel=0.01)
+
+
+def test_force_that_changes_only_so_fast_is_told_by_its_changes() -> None:
+    drive = random_forces(3, 60.0, -9.0, 11.0)
+    force, most = drive.force.copy(), 30.0 * np.diff(drive.time)
+    for k, change in enumerate(most, start=1):
+        force[k] = force[k - 1] + np.clip(drive.force[k] - force[k - 1], -change, change)
+    result = identify([acted_otherwise(drive, force)], Model())
+    assert result.effects == ()
+    assert result.unexplained is not None
+    assert result.unexplained.variable == 'force_change'
+
+
+def test_gear_that_rubs_under_load_is_told_by_how_hard_it_is_driven() -> None:
+    geared = Model().with_effect(TransmissionLoss(loss=0.15))
+    left, *_ = left_by(rehearse(geared, random_forces(3, 60.0, -9.0, 11.0), SMOOTH, 3))
+    assert (left.basis.variable, left.basis.axis) == ('drive', 'wheels')
 
 
 def pushed_again_and_again(around: Surroundings) -> Run:

@@ -228,6 +228,21 @@ class Past:
         return 0.5 * (edges[1:] + edges[:-1]), np.eye(len(edges) - 1)
 
 
+@dataclass(frozen=True)
+class Changes(Past):
+    """How far every wheel's command is from its past, squared, with its sign.
+
+    Any law by which large changes act otherwise than small ones.
+    """
+
+    def columns(self, view: View, edges: Array) -> Array:
+        """Return signed squares of changes since each span, over the largest command."""
+        most = max(float(np.abs(view.stretch.run.commands.force).max()), 1e-9)
+        now = (view.force / most)[:, None]
+        changes = now - super().columns(view, edges)
+        return np.asarray(changes * np.abs(changes))
+
+
 def _hats(values: Array, knots: Array, weights: Array) -> Array:
     """Return weighted hat functions, shape (k, q, 1 or 2)."""
     hats = [weights * np.interp(values, knots, hat) for hat in np.eye(len(knots))]

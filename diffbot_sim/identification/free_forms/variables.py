@@ -21,6 +21,7 @@ from diffbot_sim.identification.free_forms.forms import (
     FEW_KNOTS,
     FINE_KNOTS,
     GROWTH_KNOTS,
+    Changes,
     Constant,
     Growth,
     Odd,
@@ -45,8 +46,6 @@ from diffbot_sim.records import Array
 
 # Rates that differ by a line width, among which the strongest were chosen; a generous count.
 LOOKED_AT = 1000
-# The past that a command is held against, to tell how far it has changed [s].
-JUST_NOW = 0.2
 Form = Constant | Piecewise | Growth | Spans | TwoSided | Odd | Periodic | Past | Swinging
 BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
 
@@ -138,11 +137,6 @@ def _drive(view: View) -> Array:
     return np.asarray(view.force * _rolling(view))
 
 
-def _change(view: View) -> Array:
-    """How far each command is from its own past [N]."""
-    return np.asarray(view.force - view.past_force(0.0, JUST_NOW))
-
-
 VARIABLES = {
     'constant': Variable('nothing (it is always the same)', Constant(), BODY),
     'v': Variable('the speed', Piecewise(lambda view: view.v), BODY),
@@ -211,7 +205,7 @@ VARIABLES = {
         ('wheels',),
     ),
     'force_change': Variable(
-        "how far each wheel's commanded force has just changed", Odd(_change), ('wheels',)
+        "how far each wheel's commanded force has just changed", Changes(), ('wheels',)
     ),
     'past_force': Variable("the past of each wheel's commanded force", Past(), WHEELS),
     'rest_before': Variable(
