@@ -3,8 +3,12 @@
 from dataclasses import replace
 from math import nan
 
-from diffbot_sim.identification.selection.evidence import Evidence
+import numpy as np
+import pytest
+
+from diffbot_sim.identification.selection.evidence import Evidence, informative_blocks
 from diffbot_sim.identification.selection.trials import SUPPORTED, judge
+from diffbot_sim.identification.statistics.guards import elsewhere
 
 CLEAR = Evidence(60.0, 1e-15, 0.004, 0.05, 0.001, 0.001)
 
@@ -44,3 +48,27 @@ def test_law_of_time_must_prove_right_at_the_end() -> None:
 def test_one_guard_may_be_less_sure_where_the_other_is_beyond_doubt() -> None:
     assert judge(replace(CLEAR, p_block=0.02, p_folds=1e-5), tried=16) == SUPPORTED
     assert judge(replace(CLEAR, p_block=0.06, p_folds=1e-5), tried=16) != SUPPORTED
+
+
+def test_witnesses_that_are_half_sure_each_are_sure_together() -> None:
+    assert elsewhere(0.1, 0.1) < 0.05 < elsewhere(0.1, nan)
+    assert elsewhere(0.5, 0.02) < 0.05 < elsewhere(0.02, 0.5)  # parts of the run are more data
+
+
+def test_witness_that_proves_nothing_is_not_heard() -> None:
+    assert elsewhere(nan, 0.03) == pytest.approx(0.03)
+    assert elsewhere(nan, nan) == 1.0
+
+
+def test_block_that_shows_an_amount_only_now_and_then_knows_of_it() -> None:
+    shown = np.zeros((4000, 1))
+    shown[::5] = 1.0
+    assert informative_blocks(shown) == pytest.approx(40.0)
+    shown[2000:] = 0.0
+    assert informative_blocks(shown) == pytest.approx(20.0)
+
+
+def test_one_sample_that_jumps_is_no_block_that_knows_all() -> None:
+    shown = np.ones((4000, 1))
+    shown[7] = 1e4
+    assert informative_blocks(shown) == pytest.approx(40.0)
