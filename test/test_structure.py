@@ -69,6 +69,18 @@ def test_force_that_changes_only_so_fast_is_told_by_its_changes() -> None:
     assert result.unexplained.variable == 'force_change'
 
 
+def test_force_that_waits_where_it_turns_back_is_told_by_its_sign() -> None:
+    time = np.arange(0.0, 60.0, 0.02)
+    waves = np.column_stack([np.sin(1.3 * time), np.sin(1.7 * time)])
+    drive = Commands(time, 1.0 + 7.0 * waves)
+    turned = np.diff(np.sign(drive.force), axis=0, prepend=1.0) != 0.0
+    waiting = sum(np.roll(turned, k, axis=0) for k in range(7)) > 0
+    drive_on = 3.0 * np.sign(drive.force)
+    force = np.where(waiting, drive.force - drive_on, drive.force)
+    left, *_ = left_by(acted_otherwise(drive, force))
+    assert (left.basis.variable, left.basis.axis) == ('time_since_reversal', 'wheels')
+
+
 def test_gear_that_rubs_under_load_is_told_by_how_hard_it_is_driven() -> None:
     geared = Model().with_effect(TransmissionLoss(loss=0.15))
     left, *_ = left_by(rehearse(geared, random_forces(3, 60.0, -9.0, 11.0), SMOOTH, 3))

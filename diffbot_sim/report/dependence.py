@@ -78,6 +78,7 @@ STRUCTURE_LABELS = {
     'force_steps': 'command over its step, as a phase [°]',
     'rest_before': 'rest of a wheel before it starts [ln s]',
     'way_since_reversal': 'way of a wheel since it turned back [m]',
+    'time_since_reversal': 'time since the command changed its sign [s]',
     'turn_since_reversal': 'turn since ω changed its sign [rad]',
     'swing': 'time after a jump of v by 1 m/s [s]',
     'yaw_swing': 'time after a jump of ω by 1 rad/s [s]',

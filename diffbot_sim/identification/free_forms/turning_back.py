@@ -1,7 +1,8 @@
 """How far wheels have rolled, or the robot has turned, since the motion last turned back.
 
 Casters swivel there, gears take up their play, tyres wind up and dry friction yields before it
-slides: what then acts depends on the way since, not on the speed.
+slides: what then acts depends on the way since, not on the speed. Where the force turns back,
+gears cross their play, too, and amplifiers wait.
 """
 
 import numpy as np
@@ -12,6 +13,8 @@ from diffbot_sim.records import Array
 # Edges of spans of the way [m] and of the angle [rad] after turning back.
 WAYS = ((0.0, 0.03), (0.0, 0.1), (0.0, 0.3), (0.0, 0.03, 0.1, 0.3))
 ANGLES = ((0.0, 0.1), (0.0, 0.3), (0.0, 1.0), (0.0, 0.1, 0.3, 1.0))
+# The same of the time after a force turned back [s].
+TIMES = ((0.0, 0.05), (0.0, 0.15), (0.0, 0.5), (0.0, 0.05, 0.15, 0.5))
 
 
 def rolled_since(view: View) -> Array:
@@ -22,6 +25,12 @@ def rolled_since(view: View) -> Array:
 def turned_since(view: View) -> Array:
     """Return the angle since the yaw rate last changed sign [rad], shape (k,)."""
     return _since(view.omega[:, None], view.stretch.time)[:, 0]
+
+
+def driven_since(view: View) -> Array:
+    """Return the time since each wheel's command last changed its sign [s], shape (k, 2)."""
+    sense = _last_sense(view.force)
+    return _since(sense, view.stretch.time)
 
 
 def _since(speed: Array, time: Array) -> Array:

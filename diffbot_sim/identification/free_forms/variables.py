@@ -37,7 +37,9 @@ from diffbot_sim.identification.free_forms.starting import rest_before, started
 from diffbot_sim.identification.free_forms.swinging import Swinging
 from diffbot_sim.identification.free_forms.turning_back import (
     ANGLES,
+    TIMES,
     WAYS,
+    driven_since,
     rolled_since,
     turned_since,
 )
@@ -216,6 +218,11 @@ VARIABLES = {
     'way_since_reversal': Variable(
         'how far each wheel has rolled since it last turned back',
         Spans(rolled_since, _rolling, WAYS),
+        ('wheels',),
+    ),
+    'time_since_reversal': Variable(
+        "for how long each wheel's commanded force has had its sign",
+        Spans(driven_since, lambda view: np.sign(view.force), TIMES),
         ('wheels',),
     ),
     'turn_since_reversal': Variable(
