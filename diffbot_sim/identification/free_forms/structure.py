@@ -34,7 +34,7 @@ from diffbot_sim.identification.statistics.guards import (
 from diffbot_sim.identification.statistics.robust import huber
 
 # How many of the dependences are put to the test.
-FOLLOWED = 4
+FOLLOWED = 6
 # A dependence explains almost as much as another with this share of its worth.
 ALMOST = 0.9
 FORCES = {
