@@ -57,6 +57,14 @@ def test_lag_of_the_actuators_is_told_from_that_of_a_filter() -> None:
     assert answer.timings[0].lateness == pytest.approx(0.05, rel=0.05)
 
 
+def test_twists_in_coarse_steps_went_through_no_filter() -> None:
+    run = driven((ActuatorLag(0.15),), Surroundings())
+    steps = 0.025 * np.round(run.odometry.twist / 0.025)
+    answer = identify([replace(run, odometry=replace(run.odometry, twist=steps))], Model())
+    assert [effect.name for effect in answer.effects] == ['actuator_lag']
+    assert answer.timings == ()
+
+
 @pytest.mark.parametrize('share', [1.0, 0.01])
 def test_late_robot_is_not_taken_for_a_filter(share: float) -> None:
     run = driven((ActuatorLag(0.08),), Surroundings(0.004 * share, 0.008 * share))

@@ -34,6 +34,13 @@ def from_rest(run: Run) -> Stretch:
     return replace(stretch, start=State())
 
 
+def test_at_a_single_stamp_the_mean_is_the_speed_that_it_starts_with() -> None:
+    stretch = from_rest(counted(np.arange(0.0, 20.0, 0.1), (True, True)))
+    start = State(v=0.3, omega=-0.2)
+    told = simulated(Model(), stretch, stretch.time[-1:], start, 0.01)
+    assert told.twist == pytest.approx(np.array([[0.3, -0.2]]))
+
+
 @pytest.mark.parametrize('means', [(False, False), (True, False), (True, True)])
 @pytest.mark.parametrize('interval', [0.02, 0.1, 0.25])
 def test_what_is_counted_is_what_is_predicted(means, interval: float) -> None:

@@ -51,8 +51,8 @@ def test_one_guard_may_be_less_sure_where_the_other_is_beyond_doubt() -> None:
 
 
 def test_witnesses_that_are_half_sure_each_are_sure_together() -> None:
-    assert elsewhere(0.1, 0.1) < 0.05 < elsewhere(0.1, nan)
-    assert elsewhere(0.5, 0.02) < 0.05 < elsewhere(0.02, 0.5)  # parts of the run are more data
+    assert elsewhere(0.06, 0.06) < 0.05 < elsewhere(0.06, nan)
+    assert elsewhere(0.5, 0.01) < 0.05 < elsewhere(0.01, 0.5)  # parts of the run are more data
 
 
 def test_witness_that_proves_nothing_is_not_heard() -> None:

@@ -139,6 +139,8 @@ def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence
     if worth_of(best, rest) < named + OUTDONE or best.p_block > BLOCK_LEVEL:
         return None
     whole, left = (_acting_in(fit, best, final.sigma) for fit in (rest, final))
+    if worth_of(whole, rest) <= named:
+        return None
     taken = whole.fall - left.fall
     stands = worth_of(left, final) <= 0.0 or taken <= TAKEN_SHARE * worth
     return None if stands else whole

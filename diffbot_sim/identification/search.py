@@ -71,7 +71,11 @@ def search(
         return replace(found, undecided=ages.is_undecided)
     progress('undoing a filter of the twists')
     undone = found.recordings.each(partial(unfiltered, time_constant=time_constant))
-    return replace(_found(undone, declared, kinds, progress), time_constant=time_constant)
+    other = _found(undone, declared, kinds, progress)
+    # What is undone must not bring about what was not there.
+    if other.unexplained and not found.unexplained:
+        return found
+    return replace(other, time_constant=time_constant)
 
 
 def _found(

@@ -18,6 +18,7 @@ from diffbot_sim.identification.recordings.lateness import LATE, LATE_EFFECTS
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.memory import unforeseen
+from diffbot_sim.identification.statistics.norms import resolution
 from diffbot_sim.records import Array, Run
 
 # Twice a log-likelihood that is so much higher is no chance.
@@ -36,9 +37,11 @@ def unfiltered(run: Run, time_constant: float) -> Run:
 def filter_behind(fit: Fit) -> float:
     """Return the time constant [s] of a filter that explains more than an effect that is late.
 
-    0 where no effect is late, nothing speaks for a filter, or noise of a colour of its own
-    explains more.
+    0 where no effect is late, nothing speaks for a filter, noise of a colour of its own explains
+    more, or twists come in steps as coarse as the errors: those were made behind any filter.
     """
+    if np.any(resolution(np.concatenate([s.twist for s in fit.stretches])) > fit.sigma):
+        return 0.0
     values = fit.space.values(fit.u)
     late = [(values.get(name, 0.0), e) for name, e in zip(LATE, LATE_EFFECTS, strict=True)]
     looks = [(_cost_before(fit, e, time), time, e) for time, e in late if time > 0.0]

@@ -36,4 +36,5 @@ def _way(model: Model, motion: Trajectory) -> Array:
 def _means(time: Array, way: Array, first: float) -> Array:
     """Return the mean rate before each stamp; before the first one as if it had changed evenly."""
     rate = np.diff(way) / np.diff(time)
-    return np.concatenate([2.0 * first - rate[:1], rate])
+    before = 2.0 * first - rate[0] if rate.size else first
+    return np.append(before, rate)

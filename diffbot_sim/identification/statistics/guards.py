@@ -42,7 +42,7 @@ def elsewhere(held_out: float, parts: float) -> float:
     """Return the chance of what two witnesses say: Stouffer's method.
 
     held_out: held-out data; parts: parts of the runs, predicted from others. nan where one proves
-    nothing. Neither knows of the other.
+    nothing. They speak of the same fit, so two count as two looks.
     """
     pairs = zip((held_out, parts), WEIGHTS, strict=True)
     known = [(chance, weight) for chance, weight in pairs if not isnan(chance)]
@@ -50,7 +50,8 @@ def elsewhere(held_out: float, parts: float) -> float:
         return 1.0
     chances, weights = zip(*known, strict=True)
     chances = np.clip(chances, SUREST, 1.0 - SUREST)
-    return float(stats.combine_pvalues(chances, 'stouffer', weights).pvalue)
+    chance = float(stats.combine_pvalues(chances, 'stouffer', weights).pvalue)
+    return best_look(*[chance] * len(known))
 
 
 def lasting(p_block: float, p_elsewhere: float) -> bool:
