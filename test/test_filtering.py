@@ -58,11 +58,12 @@ def test_lag_of_the_actuators_is_told_from_that_of_a_filter() -> None:
 
 
 def test_twists_in_coarse_steps_went_through_no_filter() -> None:
-    run = driven((ActuatorLag(0.15),), Surroundings())
-    steps = 0.025 * np.round(run.odometry.twist / 0.025)
+    time = np.arange(0.0, 60.0, 0.02)
+    slow = Commands(time, 5.0 * np.sin(np.outer(time, (0.5, 0.37))))
+    run = rehearse(Model(effects=(ActuatorLag(0.15),)), slow, Surroundings(), 3)
+    steps = 0.05 * np.round(run.odometry.twist / 0.05)
     answer = identify([replace(run, odometry=replace(run.odometry, twist=steps))], Model())
-    assert [effect.name for effect in answer.effects] == ['actuator_lag']
-    assert answer.timings == ()
+    assert 'filter' not in [it.taken for it in answer.timings]
 
 
 @pytest.mark.parametrize('share', [1.0, 0.01])
