@@ -67,15 +67,14 @@ def search(
             return other
     # What is left of a filter may be held against the names that stand for it.
     time_constant = filter_behind(found.undoubted)
-    if time_constant == 0.0:
-        return replace(found, undecided=ages.is_undecided)
-    progress('undoing a filter of the twists')
-    undone = found.recordings.each(partial(unfiltered, time_constant=time_constant))
-    other = _found(undone, declared, kinds, progress)
-    # What is undone must not bring about what was not there.
-    if other.unexplained and not found.unexplained:
-        return found
-    return replace(other, time_constant=time_constant)
+    if time_constant > 0.0:
+        progress('undoing a filter of the twists')
+        undone = found.recordings.each(partial(unfiltered, time_constant=time_constant))
+        other = _found(undone, declared, kinds, progress)
+        # What is undone must not bring about what was not there.
+        if found.unexplained or not other.unexplained:
+            return replace(other, time_constant=time_constant)
+    return replace(found, undecided=ages.is_undecided)
 
 
 def _found(

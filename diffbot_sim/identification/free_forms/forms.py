@@ -12,6 +12,7 @@ from typing import ClassVar
 import numpy as np
 
 from diffbot_sim.identification.fitting.views import View
+from diffbot_sim.identification.recordings.stretches import largest_command
 from diffbot_sim.records import Array
 
 # Numbers of knots: a line, of few functions, shows what is weak; many show what is of any form.
@@ -219,9 +220,8 @@ class Past:
 
     def columns(self, view: View, edges: Array) -> Array:
         """Return mean commands of each span, over the largest command."""
-        most = max(float(np.abs(view.stretch.run.commands.force).max()), 1e-9)
         spans = [view.past_force(*span) for span in pairwise(edges)]
-        return np.stack(spans, axis=1) / most
+        return np.stack(spans, axis=1) / _most(view)
 
     def curve(self, edges: Array) -> tuple[Array, Array]:
         """Return the middles of the spans and the functions there."""
@@ -237,10 +237,14 @@ class Changes(Past):
 
     def columns(self, view: View, edges: Array) -> Array:
         """Return signed squares of changes since each span, over the largest command."""
-        most = max(float(np.abs(view.stretch.run.commands.force).max()), 1e-9)
-        now = (view.force / most)[:, None]
+        now = view.force[:, None] / _most(view)
         changes = now - super().columns(view, edges)
         return np.asarray(changes * np.abs(changes))
+
+
+def _most(view: View) -> float:
+    """Return the largest command of a stretch's run [N], if there is any."""
+    return max(largest_command([view.stretch]), 1e-9)
 
 
 def _hats(values: Array, knots: Array, weights: Array) -> Array:
