@@ -29,6 +29,7 @@ EXAMPLES = (
     'quadratic_drag',
     'payload_change',
     'power_limit',
+    'voltage_limit',
     'effective_track',
 )
 RIPPLE = ('order', 'right_cos', 'right_sin', 'left_cos', 'left_sin')
@@ -36,6 +37,7 @@ RIPPLE = ('order', 'right_cos', 'right_sin', 'left_cos', 'left_sin')
 AMPLE = {
     'actuator_saturation': {'limit': 7.0},
     'power_limit': {'power': 6.0},
+    'voltage_limit': {'stall_force': 11.0, 'no_load_speed': 1.2},
     'payload_change': {'mass': 2.0, 'inertia': 0.08, 'moment': 23.4},
     'wheel_ripple': dict(zip(RIPPLE, (5.3, 0.5, 0.0, 0.2, 0.4), strict=True)),
 }

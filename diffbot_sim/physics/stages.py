@@ -5,6 +5,7 @@ A kernel is a pure compiled function `kernel(at, value, *state, *parameters) -> 
 """
 
 from enum import IntEnum
+from math import copysign
 from typing import Any, NamedTuple
 
 from numba import types
@@ -120,6 +121,21 @@ def scaled(law: Law, dry: float, viscous: float) -> Law:
 def within(force: float, limit: float) -> float:
     """Return a force [N] cut off at ±limit."""
     return min(max(force, -limit), limit)
+
+
+@compiled
+def nearly_within(force: float, limit: float) -> float:
+    """Return a force [N] cut off at ±limit; at the limit itself 1 - 2^(-1/32), 2 %, is missing.
+
+    For limits that depend on the motion: a bend that is sharp there would cost the integrator its
+    order. Beyond four times or a quarter of the limit it is a sharp one, to the last bit.
+    """
+    asked = abs(force) / limit
+    if asked <= 0.25:
+        return force
+    if asked >= 4.0:
+        return copysign(limit, force)
+    return force / (1.0 + asked**32) ** (1.0 / 32.0)
 
 
 @compiled

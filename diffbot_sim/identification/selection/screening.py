@@ -118,6 +118,7 @@ class Screen:
             duration=max(float(s.time[-1]) for s in stretches),
             orders=wheel_orders(seen),
             power=max(0.01, *(float((v.force * v.wheel_speed).max()) for v in seen)),
+            speed=max(0.01, *(float(np.abs(v.wheel_speed).max()) for v in seen)),
         )
 
     @cached_property

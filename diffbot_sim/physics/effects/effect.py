@@ -12,13 +12,15 @@ class Excitation(NamedTuple):
     """What a recorded drive offers, for fits whose starting points depend on it.
 
     force: largest command [N]; duration: of the longest run [s]; orders: cycles per wheel
-    revolution at which the residual is strongest; power: largest of command times speed [W].
+    revolution at which the residual is strongest; power: largest of command times speed [W];
+    speed: largest of a wheel [m/s].
     """
 
     force: float
     duration: float
     orders: tuple[float, ...] = ()
     power: float = 100.0
+    speed: float = 1.0
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,11 @@
 """A drive that gives its full force at low speed only."""
 
 from dataclasses import dataclass
-from math import sqrt
 
 from diffbot_sim.parameters import parameter
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.effects.effect import Effect, Excitation
-from diffbot_sim.physics.stages import Motion, Stage, Traction
+from diffbot_sim.physics.stages import Motion, Stage, Traction, nearly_within
 
 # Shares of the largest power at which the limit may lie.
 SHARES = (0.85, 0.6, 0.35)
@@ -14,13 +13,10 @@ SHARES = (0.85, 0.6, 0.35)
 
 @compiled
 def weakened(force: float, speed: float, limit: float) -> float:
-    """Return a force [N] that does hardly more work than the limit [W]; braking is not limited.
-
-    The bend is rounded, since one that is sharp in speed would cost the integrator its order: at
-    a power just of the limit 1 - 2^(-1/8), 8 %, is missing.
-    """
-    asked = max(force * speed, 0.0) / limit
-    return force / sqrt(sqrt(sqrt(1.0 + asked**8)))
+    """Return a force [N] that does hardly more work than the limit [W]; braking is not limited."""
+    if force * speed <= 0.0:
+        return force
+    return nearly_within(force, limit / abs(speed))
 
 
 @compiled
@@ -34,7 +30,7 @@ def limited(at: Motion, traction: Traction, limit: float) -> Traction:
 
 @dataclass(frozen=True)
 class PowerLimit(Effect):
-    """Force F / (1 + (F v / P)^8)^(1/8) on each wheel while it drives: at most P/|v|."""
+    """Force on each wheel of at most P/|v| while it drives, rounded there."""
 
     name = 'power_limit'
     meaning = 'power of each wheel is limited, so its force falls as it gets faster'
