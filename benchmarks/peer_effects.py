@@ -131,6 +131,14 @@ def _effective_track(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'half': make.plant.half * (1.0 + 0.05 * size * c.sign)}
 
 
+def _power_limit(make: Make, size: float, c: Chance) -> dict[str, float]:
+    return {'power': 0.25 * make.push * make.terminal / size}
+
+
+def _voltage_limit(make: Make, size: float, c: Chance) -> dict[str, float]:
+    return {'stall': make.push * [1.0, 1.3][c.law % 2], 'no_load': make.terminal / size}
+
+
 def _speed_bump(make: Make, size: float, c: Chance) -> dict[str, float]:
     speed = 0.4 * make.terminal
     force = 1.5 * size * make.plant.coulomb
@@ -212,6 +220,8 @@ EFFECTS: dict[str, Law] = {
     'wheel_ripple': _wheel_ripple,
     'friction_drift': _friction_drift,
     'effective_track': _effective_track,
+    'power_limit': _power_limit,
+    'voltage_limit': _voltage_limit,
 }
 FOREIGN: dict[str, Law] = {
     'speed_bump': _speed_bump,

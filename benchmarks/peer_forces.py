@@ -13,12 +13,19 @@ SHOVE, LATER = 0.8, 1.6
 
 
 @njit(cache=True)
-def acting(p: Plant, command: float) -> float:
-    """Return the force [N] that a motor aims at: in steps, less the dead band, then clipped."""
+def acting(p: Plant, command: float, speed: float) -> float:
+    """Return the force [N] that a motor aims at: in steps, less the dead band, then limited.
+
+    speed: of the wheel [m/s].
+    """
     if p.coarse != 0.0:
         command = p.coarse * round(command / p.coarse)
     size = max(abs(command) - p.deadband, 0.0)
-    return copysign(min(size, p.saturation), command)
+    driving = max(copysign(speed, command * speed), 0.0)
+    size = min(size, p.saturation, p.stall * max(1.0 - driving / p.no_load, 0.0))
+    if size * driving > p.power:
+        size = p.power / driving
+    return copysign(size, command)
 
 
 @njit(cache=True)

@@ -47,6 +47,11 @@ class Plant(NamedTuple):
     # [N]
     saturation: float = inf
     deadband: float = 0.0
+    # Limits of a motor that drives: its power [W], and a force [N] that falls to nothing at a
+    # speed [m/s].
+    power: float = inf
+    stall: float = inf
+    no_load: float = inf
     # Force gain (1 − fade t) e^(−decay t) [1/s].
     fade: float = 0.0
     decay: float = 0.0

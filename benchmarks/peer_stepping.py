@@ -44,8 +44,8 @@ def advance(
         time, newest = s[COUNT] * STEP, int(s[COUNT]) % len(way)
         way[newest, 0], way[newest, 1] = right, left
         oldest = (newest + 1) % len(way)
-        s[MOTOR_R] = followed(p, s[MOTOR_R], acting(p, way[oldest, 0]), STEP)
-        s[MOTOR_L] = followed(p, s[MOTOR_L], acting(p, way[oldest, 1]), STEP)
+        s[MOTOR_R] = followed(p, s[MOTOR_R], acting(p, way[oldest, 0], s[RIGHT]), STEP)
+        s[MOTOR_L] = followed(p, s[MOTOR_L], acting(p, way[oldest, 1], s[LEFT]), STEP)
         force_r = push[0] + traction(p, time, s[MOTOR_R], s[ANGLE_R], True)
         force_l = push[1] + traction(p, time, s[MOTOR_L], s[ANGLE_L], False)
         _roll(p, s, time, force_r, force_l)

@@ -14,6 +14,8 @@ SAME = {
     'actuator_delay': {'time': 'delay'},
     'actuator_saturation': {'limit': 'saturation'},
     'actuator_deadband': {'band': 'deadband'},
+    'power_limit': {'power': 'power'},
+    'voltage_limit': {'stall_force': 'stall', 'no_load_speed': 'no_load'},
     'force_bias': {'right': 'bias_right', 'left': 'bias_left'},
     'com_offset': {'offset': 'ahead'},
     'payload_change': {'mass': 'load_mass', 'inertia': 'load_inertia', 'moment': 'load_time'},
