@@ -24,6 +24,8 @@ class Plant(NamedTuple):
     coulomb: float
     viscous: float
     stribeck: float
+    # Speed [m/s] up to which dry friction of a wheel grows instead of holding it at rest.
+    creep: float = 0.0
 
     # Effects of the vocabulary. c [kg/m] in −c v |v|.
     drag: float = 0.0

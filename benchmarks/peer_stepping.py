@@ -1,8 +1,8 @@
 """Moreau's time stepping: friction is an inclusion in the velocity at the end of each step.
 
 Wheels and dry yaw friction make a complementarity problem of three small contacts, solved by
-projected Gauss–Seidel from the solution of the step before. First order, never a regularised
-friction: a contact that sticks has a speed of exactly zero.
+projected Gauss–Seidel from the solution of the step before. First order, and friction is not
+regularised unless wheels creep: a contact that sticks has a speed of exactly zero.
 """
 
 from math import cos, sin
@@ -106,10 +106,10 @@ def _stick_or_slide(
     f_r, f_l, scrub = s[FRICTION_R], s[FRICTION_L], s[SCRUB]
     for _ in range(SWEEPS):
         before_r, before_l, before_scrub = f_r, f_l, scrub
-        right, f_r = _contact(free_r - other * f_l - arm * scrub, own, limits_r)
-        left, f_l = _contact(free_l - other * f_r + arm * scrub, own, limits_l)
+        right, f_r = _contact(free_r - other * f_l - arm * scrub, own, limits_r, p.creep)
+        left, f_l = _contact(free_l - other * f_r + arm * scrub, own, limits_l, p.creep)
         unscrubbed = 0.5 * (free_r - free_l) / p.half - arm * (f_r - f_l)
-        omega, scrub = _contact(unscrubbed, turned, limits_yaw)
+        omega, scrub = _contact(unscrubbed, turned, limits_yaw, 0.0)
         change = max(abs(f_r - before_r), abs(f_l - before_l), abs(scrub - before_scrub))
         if change <= SETTLED:
             break
@@ -119,16 +119,19 @@ def _stick_or_slide(
 
 
 @njit(cache=True)
-def _contact(free: float, compliance: float, limits: Limits) -> tuple[float, float]:
+def _contact(free: float, compliance: float, limits: Limits, creep: float) -> tuple[float, float]:
     """Return speed and friction of one contact, from its speed without friction.
 
-    compliance: fall of its speed for each unit of its friction.
+    compliance: fall of its speed for each unit of its friction; creep: speed up to which dry
+    friction grows in a line.
     """
     forward, backward, viscous, back_viscous = limits
-    if free > compliance * forward:
+    if free > compliance * forward + creep:
         speed = (free - compliance * forward) / (1.0 + compliance * viscous)
         return speed, forward + viscous * speed
-    if free < -compliance * backward:
+    if free < -compliance * backward - creep:
         speed = (free + compliance * backward) / (1.0 + compliance * back_viscous)
         return speed, -backward + back_viscous * speed
-    return 0.0, free / compliance
+    limit = forward if free > 0.0 else backward
+    speed = 0.0 if limit == 0.0 else free * creep / (compliance * limit + creep)
+    return speed, (free - speed) / compliance

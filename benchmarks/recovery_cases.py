@@ -17,6 +17,10 @@ Row = dict[str, Any]
 FLOORS = ('smooth', 'rough')
 # Effects that are asked with real sensors: those that slow odometry may hide or bring about.
 SENSED = ('actuator_lag', 'actuator_delay', 'slope')
+# Effects that are asked of wheels that creep: what acts at rest, and what does not; and how fast
+# they creep [m/s].
+AT_REST = ('slope', 'actuator_deadband', 'yaw_friction')
+CREEP = (0.002, 0.005, 0.01)
 # Effects whose detection is followed over their size, in multiples of a weak one.
 FOLLOWED = ('quadratic_drag', 'actuator_lag', 'wheel_friction_asymmetry', 'payload_change')
 MULTIPLES = ('0.25×', '0.5×', '1×', '2×', '4×', '8×')
@@ -27,7 +31,8 @@ class Case:
     """A robot with some effects of a size on a floor.
 
     removed: the library lacks them; drive: one of MANOEUVRES, or none: random drives take turns;
-    sensors: one of SENSORS, or none: twists of the moment, with white noise.
+    sensors: one of SENSORS, or none: twists of the moment, with white noise; creep: how fast
+    wheels do so below static friction [m/s].
     """
 
     family: str
@@ -39,13 +44,15 @@ class Case:
     removed: bool = False
     drive: str = ''
     sensors: str = ''
+    creep: float = 0.0
 
     @property
     def name(self) -> str:
         """What tells it from all other cases."""
         effects = '+'.join(self.effects) or 'none'
         told = (self.family, effects, self.size, self.make, self.floor, str(self.seed))
-        return ' '.join(filter(None, (*told, self.drive, self.sensors)))
+        creep = f'creep {1e3 * self.creep:g} mm/s' if self.creep else ''
+        return ' '.join(filter(None, (*told, self.drive, self.sensors, creep)))
 
 
 def _clean(seed: int) -> Iterator[Case]:
@@ -93,6 +100,14 @@ def _odometry(seed: int) -> Iterator[Case]:
         yield Case('odometry', effects, 'typical', make, floor, seed + turn, sensors=sensors)
 
 
+def _creeping(seed: int) -> Iterator[Case]:
+    """Yield clean robots, and ones with an effect, whose wheels creep at a speed in turn."""
+    robots = product([(), *((name,) for name in AT_REST)], MAKES, FLOORS)
+    for turn, (effects, make, floor) in enumerate(robots, start=seed):
+        creep = CREEP[(turn // 2 + turn // 6) % len(CREEP)]
+        yield Case('creeping', effects, 'typical', make, floor, seed + turn, creep=creep)
+
+
 FAMILIES: dict[str, Callable[[int], Iterator[Case]]] = {
     'clean': _clean,
     'single': _single,
@@ -102,6 +117,7 @@ FAMILIES: dict[str, Callable[[int], Iterator[Case]]] = {
     'sizes': _sizes,
     'drives': _drives,
     'odometry': _odometry,
+    'creeping': _creeping,
 }
 
 

@@ -41,7 +41,7 @@ def judge(case: Case) -> Row:
 def planted_in(case: Case) -> tuple[Plant, dict[str, float]]:
     """Return a case's robot, and its numbers that are not those of the robot without effects."""
     make = MAKES[case.make]
-    plant = make.plant
+    plant = make.plant._replace(creep=case.creep)
     for name in case.effects:
         size = size_of(make, name, case.size, case.seed)
         plant = with_effect(plant, make, name, size, case.seed)

@@ -51,6 +51,11 @@ def test_force_below_static_friction_moves_nothing_at_all():
     assert not run.odometry.pose.any()
 
 
+def test_wheels_creep_in_proportion_to_force_below_static_friction():
+    run = driven(MAKES['medium'].plant._replace(creep=0.006), 0.8, 0.8)
+    assert run.odometry.twist[-1, 0] == pytest.approx(0.006 * 0.8 / 2.4, rel=0.02)
+
+
 def test_stuck_wheel_holds_while_the_other_slides():
     run = driven(MAKES['medium'].plant._replace(static=4.0), 6.0, 0.0)
     v, omega = run.odometry.twist[-1]
