@@ -9,7 +9,13 @@ from diffbot_sim.identification.doubt import doubt
 from diffbot_sim.identification.fitting.calibration import calibrate, simulation_error
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filtering import filter_behind, unfiltered
-from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
+from diffbot_sim.identification.fitting.fit import (
+    FIRST_GAINS,
+    QUICK_GAINS,
+    Fit,
+    fit_prediction,
+    fit_simulation,
+)
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.older import Ages, is_taken
@@ -18,6 +24,7 @@ from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure, Timing
+from diffbot_sim.identification.selection.evidence import delta_bic
 from diffbot_sim.identification.selection.stepwise import Selection, select
 from diffbot_sim.identification.selection.trials import Progress
 from diffbot_sim.physics.effects import Effect
@@ -28,7 +35,8 @@ from diffbot_sim.physics.model import Model
 class Found:
     """What was found in recordings, as they were taken to be timed.
 
-    undoubted: the fit before names were doubted; time_constant [s]: of the filter of their twists
+    undoubted: the fit before names were doubted; near_rest: by how much in BIC friction near rest
+    is other than declared; time_constant [s]: of the filter of their twists
     that was undone, 0 if none was; undecided: whether twists may be older than their stamps.
     """
 
@@ -38,6 +46,7 @@ class Found:
     undoubted: Fit
     selection: Selection
     unexplained: Structure | None
+    near_rest: float = 0.0
     time_constant: float = 0.0
     undecided: bool = False
 
@@ -87,8 +96,7 @@ def _found(
     recalibrated = calibrate(Space(declared, ()), fitted)
     fitted = restarted(recalibrated.model, fitted, MAX_STEP)
     progress('fitting the noise model')
-    near = fit_prediction(recalibrated.space, fitted, recalibrated.u, FIRST_GAINS)
-    base = shaken(near)
+    base = shaken(_watched(recalibrated, fitted))
     # One-step errors have fewer local minima: where they lead is one more start.
     again = fit_simulation(base.space, fitted, base.u)
     recalibrated = min(recalibrated, again, key=simulation_error)
@@ -96,6 +104,15 @@ def _found(
     progress('looking for structure that is left')
     doubted = doubt(selection, held_out)
     return Found(recordings, held_out, recalibrated, selection.final, *doubted)
+
+
+def _watched(recalibrated: Fit, stretches: tuple[Stretch, ...]) -> Fit:
+    """Fit by prediction error, the noise model from either start: each has hollows of its own."""
+    near, other = (
+        fit_prediction(recalibrated.space, stretches, recalibrated.u, gains)
+        for gains in (FIRST_GAINS, QUICK_GAINS)
+    )
+    return other if delta_bic(near, other) > 0.0 else near
 
 
 def _check(stretches: Sequence[Stretch]) -> None:
