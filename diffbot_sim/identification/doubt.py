@@ -74,15 +74,15 @@ def doubt(selection: Selection, held_out: Sequence[Stretch]) -> Doubted:
     near_rest = selection.final.deviance(final.sigma) - final.deviance(final.sigma)
     allowed = ALLOWED_SHARE * near_rest
     left_over = find_dependences(Screen(final), held)
-    found = [left for left in left_over if worth_of(left, final) > allowed]
-    if not found:
-        suspected = _suspicion(selection, held_out, SUSPICIOUS + allowed)
-        return suspected or Doubted(selection, _pushed(selection.final), near_rest)
-    for kind, left in product(final.space.kinds, found):
+    for kind, left in product(final.space.kinds, left_over):
         rest = seen.without[kind.name]
         whole = _free_form_of(rest, final, left)
         if whole is not None:
             return _without(selection, kind.name, describe(whole, rest), held_out)
+    found = [left for left in left_over if worth_of(left, final) > allowed]
+    if not found:
+        suspected = _suspicion(selection, held_out, SUSPICIOUS + allowed)
+        return suspected or Doubted(selection, _pushed(selection.final), near_rest)
     return Doubted(selection, describe(found[0], final), near_rest)
 
 

@@ -9,13 +9,7 @@ from diffbot_sim.identification.doubt import doubt
 from diffbot_sim.identification.fitting.calibration import calibrate, simulation_error
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filtering import filter_behind, unfiltered
-from diffbot_sim.identification.fitting.fit import (
-    FIRST_GAINS,
-    QUICK_GAINS,
-    Fit,
-    fit_prediction,
-    fit_simulation,
-)
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.older import Ages, is_taken
@@ -24,7 +18,6 @@ from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure, Timing
-from diffbot_sim.identification.selection.evidence import delta_bic
 from diffbot_sim.identification.selection.stepwise import Selection, select
 from diffbot_sim.identification.selection.trials import Progress
 from diffbot_sim.physics.effects import Effect
@@ -96,7 +89,8 @@ def _found(
     recalibrated = calibrate(Space(declared, ()), fitted)
     fitted = restarted(recalibrated.model, fitted, MAX_STEP)
     progress('fitting the noise model')
-    base = shaken(_watched(recalibrated, fitted))
+    near = fit_prediction(recalibrated.space, fitted, recalibrated.u, FIRST_GAINS)
+    base = shaken(near)
     # One-step errors have fewer local minima: where they lead is one more start.
     again = fit_simulation(base.space, fitted, base.u)
     recalibrated = min(recalibrated, again, key=simulation_error)
@@ -104,15 +98,6 @@ def _found(
     progress('looking for structure that is left')
     doubted = doubt(selection, held_out)
     return Found(recordings, held_out, recalibrated, selection.final, *doubted)
-
-
-def _watched(recalibrated: Fit, stretches: tuple[Stretch, ...]) -> Fit:
-    """Fit by prediction error, the noise model from either start: each has hollows of its own."""
-    near, other = (
-        fit_prediction(recalibrated.space, stretches, recalibrated.u, gains)
-        for gains in (FIRST_GAINS, QUICK_GAINS)
-    )
-    return other if delta_bic(near, other) > 0.0 else near
 
 
 def _check(stretches: Sequence[Stretch]) -> None:

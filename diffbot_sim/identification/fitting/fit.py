@@ -14,11 +14,9 @@ from diffbot_sim.identification.statistics.robust import huber
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array
 
-# Where fits of the noise model start, for what is smooth and for what is not, and how far its
-# gains may go: speed, disturbance, memory.
+# Where fits of the noise model start, and how far its gains may go: speed, disturbance, memory.
 FIRST_GAINS = np.array([0.05, 0.005, 0.3, 0.05, 0.005, 0.3])
-QUICK_GAINS = np.array([0.5, 0.2, 0.8, 0.5, 0.2, 0.8])
-GAIN_LIMITS = (np.zeros(6), np.array([0.95, 1.0, 0.999, 0.95, 1.0, 0.999]))
+GAIN_LIMITS = (np.zeros(6), np.array([0.95, 0.5, 0.999, 0.95, 0.5, 0.999]))
 GAIN_PRIOR = np.array([0.0, 0.0, 0.3, 0.0, 0.0, 0.3])
 # Evaluations in a round, and rounds at most, of fits that go on to the end.
 EVALUATIONS, ROUNDS = 10, 8
