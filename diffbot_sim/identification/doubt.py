@@ -4,16 +4,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product
 from math import inf
-from typing import NamedTuple
 
 import numpy as np
 
-from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
+from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.free_forms.bases import again
 from diffbot_sim.identification.free_forms.dependence import Dependence, realised, worth_of
 from diffbot_sim.identification.free_forms.moments import pushed
-from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.identification.free_forms.structure import dependences, describe, find_dependences
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
@@ -39,85 +37,50 @@ SUSPICIOUS = 50.0
 # A name that is worth less is believed beside what is left, or refused, if that explains less than
 # this share of it.
 WORTHIER = 0.5
-# Friction near rest is allowed for in about its form: of what that explains, as much again as this
-# share may be left.
-ALLOWED_SHARE = 0.5
 
 
-class Doubted(NamedTuple):
-    """What stands up to doubt, and what is left unnamed.
-
-    near_rest: by how much in BIC friction near rest is other than the declared law.
-    """
-
-    selection: Selection
-    unexplained: Structure | None
-    near_rest: float
-
-
-def doubt(selection: Selection, held_out: Sequence[Stretch]) -> Doubted:
+def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection, Structure | None]:
     """Withdraw names that do not stand up to a free-form force; return what is left unnamed.
 
     So goes a name that a free form outdoes, the weakest where one free form outdoes all together,
     and a name whose law leaves much of what it is about, or explains little beside that.
     """
-    seen, held = _eased(selection, held_out)
-    final = seen.final
+    final = selection.final
     for kind in final.space.kinds:
-        better = _outdone(seen.without[kind.name], final, (kind,))
+        better = _outdone(selection.without[kind.name], final, (kind,))
         if better is not None:
             return _without(selection, kind.name, describe(better, final), held_out)
     if len(final.space.kinds) > 1:
-        better = _outdone(seen.base, final, final.space.kinds)
+        better = _outdone(selection.base, final, final.space.kinds)
         if better is not None:
             return _without(selection, _weakest(selection)[1], describe(better, final), held_out)
-    near_rest = selection.final.deviance(final.sigma) - final.deviance(final.sigma)
-    allowed = ALLOWED_SHARE * near_rest
-    left_over = find_dependences(Screen(final), held)
-    for kind, left in product(final.space.kinds, left_over):
-        rest = seen.without[kind.name]
+    found = find_dependences(Screen(final), held_out)
+    if not found:
+        return _pushed(*_suspicion(selection, held_out))
+    for kind, left in product(final.space.kinds, found):
+        rest = selection.without[kind.name]
         whole = _free_form_of(rest, final, left)
         if whole is not None:
             return _without(selection, kind.name, describe(whole, rest), held_out)
-    found = [left for left in left_over if worth_of(left, final) > allowed]
-    if not found:
-        suspected = _suspicion(selection, held_out, SUSPICIOUS + allowed)
-        return suspected or Doubted(selection, _pushed(selection.final), near_rest)
-    return Doubted(selection, describe(found[0], final), near_rest)
+    return selection, describe(found[0], final)
 
 
-def _eased(
+def _suspicion(
     selection: Selection, held_out: Sequence[Stretch]
-) -> tuple[Selection, tuple[Stretch, ...]]:
-    """Return a selection of which all fits allow for the same friction near rest."""
-    final, held = eased(selection.final, held_out)
-    if final is selection.final:
-        return selection, held
-
-    def refitted(fit: Fit) -> Fit:
-        return fit_prediction(fit.space, final.stretches, fit.u, fit.gains)
-
-    without = {name: refitted(fit) for name, fit in selection.without.items()}
-    return replace(selection, base=refitted(selection.base), final=final, without=without), held
-
-
-def _suspicion(selection: Selection, held_out: Sequence[Stretch], least: float) -> Doubted | None:
-    """Doubt silence, and the weakest name, beside a refused effect that is beyond chance.
-
-    least: by how much an effect must lower the BIC to be that; None where there is none such.
-    """
+) -> tuple[Selection, Structure | None]:
+    """Doubt silence, and the weakest name, beside a refused effect that is beyond chance."""
     final = selection.final
     refused = [t for t in selection.trials if t.refused and not t.evidence.is_contradicted]
     most = max(refused, key=lambda t: t.evidence.delta_bic, default=None)
     suspected = 0.0 if most is None else _worth_without_luck(most)
-    if most is None or suspected < least:
-        return None
+    if most is None or suspected < SUSPICIOUS:
+        return selection, None
     nearest = describe(dependences(Screen(final))[0], final)
     words = f'something that {most.kind.name} explains in part, though {_but(most)}, or'
     left = replace(nearest, description=f'{words} {nearest.description}')
     worth, weakest = _weakest(selection)
     if WORTHIER * worth > suspected:
-        return Doubted(selection, left, 0.0)
+        return selection, left
     return _without(selection, weakest, left, held_out)
 
 
@@ -127,9 +90,11 @@ def _but(refused: Trial) -> str:
     return 'only with values that no robot has' if incredible else 'not all along the runs'
 
 
-def _pushed(final: Fit) -> Structure | None:
+def _pushed(selection: Selection, left: Structure | None) -> tuple[Selection, Structure | None]:
     """Ask moments of what nothing else is said of; beside a name they may be its own misses."""
-    return None if final.space.kinds else pushed(final)
+    if left is not None or selection.final.space.kinds:
+        return selection, left
+    return selection, pushed(selection.final)
 
 
 def _worth_without_luck(trial: Trial) -> float:
@@ -151,10 +116,10 @@ def _weakest(selection: Selection) -> tuple[float, str]:
 
 def _without(
     selection: Selection, name: str, instead: Structure, held_out: Sequence[Stretch]
-) -> Doubted:
+) -> tuple[Selection, Structure]:
     """Doubt what is left when a name has gone; there is structure, if only what it went for."""
-    doubted = doubt(selection.withdrawn(name), held_out)
-    return doubted._replace(unexplained=doubted.unexplained or instead)
+    selection, structure = doubt(selection.withdrawn(name), held_out)
+    return selection, structure or instead
 
 
 def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence | None:

@@ -199,8 +199,7 @@ class Identification:
 
     empirical: the table in `identified` that stands for what is unexplained, if it simulates
     better with it; timings: of runs whose twists were not taken as they were stamped; biases: of
-    runs whose turn rates were not taken as they were told; near_rest: by how much in BIC friction
-    near rest is of another form than declared, which is allowed for.
+    runs whose turn rates were not taken as they were told.
     """
 
     verdict: str
@@ -219,4 +218,3 @@ class Identification:
     runs: tuple[RunCheck, ...] = ()
     timings: tuple[Timing, ...] = ()
     biases: tuple[Bias, ...] = ()
-    near_rest: float = 0.0

@@ -28,8 +28,7 @@ from diffbot_sim.physics.model import Model
 class Found:
     """What was found in recordings, as they were taken to be timed.
 
-    undoubted: the fit before names were doubted; near_rest: by how much in BIC friction near rest
-    is other than declared; time_constant [s]: of the filter of their twists
+    undoubted: the fit before names were doubted; time_constant [s]: of the filter of their twists
     that was undone, 0 if none was; undecided: whether twists may be older than their stamps.
     """
 
@@ -39,7 +38,6 @@ class Found:
     undoubted: Fit
     selection: Selection
     unexplained: Structure | None
-    near_rest: float = 0.0
     time_constant: float = 0.0
     undecided: bool = False
 

@@ -41,13 +41,6 @@ BIAS = (
     'off its turn rates.'
 )
 
-# The fall of the BIC beyond which friction near rest is worth a word.
-TOLD = 50.0
-NEAR_REST = (
-    'Friction near rest is of another form than the declared law: wheels creep there, or yield '
-    'before they slide. That was allowed for, and no effect is told because of it.'
-)
-
 
 def verdict(result: Identification) -> str:
     """Say the answer in one sentence."""
@@ -143,10 +136,10 @@ def disagreements(runs: Sequence[RunCheck]) -> list[str]:
 
 
 def of_recordings(result: Identification) -> list[str]:
-    """Say what was not taken as it was recorded or declared, and why."""
+    """Say of which runs the twists were not taken as they were recorded, and why."""
     biases = [f'{it.run}: {BIAS.format(_rate(it.rate))}' for it in result.biases]
     late = [f'{it.run}: {TIMINGS[it.taken].format(_milliseconds(it))}' for it in result.timings]
-    return [*biases, *late, *([NEAR_REST] if result.near_rest > TOLD else [])]
+    return [*biases, *late]
 
 
 def _milliseconds(it: Timing) -> str:
