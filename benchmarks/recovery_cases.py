@@ -1,6 +1,6 @@
 """The cases that identification is judged on: families of robots, effects, sizes and floors."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, product
 from typing import Any
@@ -86,15 +86,15 @@ def _sizes(seed: int) -> Iterator[Case]:
 
 
 def _drives(seed: int) -> Iterator[Case]:
-    for drive, effects in product(MANOEUVRES, [(), *((name,) for name in EFFECTS)]):
+    for drive, effects in product(MANOEUVRES, _none_or_one(EFFECTS)):
         yield Case('drives', effects, 'typical', 'medium', 'smooth', seed, drive=drive)
-    for drive, effects in product(('stairs', 'keyboard'), [(), *((name,) for name in EFFECTS)]):
+    for drive, effects in product(('stairs', 'keyboard'), _none_or_one(EFFECTS)):
         yield Case('drives', effects, 'typical', 'large', 'rough', seed, drive=drive)
 
 
 def _odometry(seed: int) -> Iterator[Case]:
     """Yield clean robots, and ones with an effect, each with the sensors whose turn it is."""
-    robots = product([(), *((name,) for name in SENSED)], MAKES, FLOORS)
+    robots = product(_none_or_one(SENSED), MAKES, FLOORS)
     for turn, (effects, make, floor) in enumerate(robots, start=seed + 1):
         sensors = tuple(SENSORS)[turn % len(SENSORS)]
         yield Case('odometry', effects, 'typical', make, floor, seed + turn, sensors=sensors)
@@ -102,7 +102,7 @@ def _odometry(seed: int) -> Iterator[Case]:
 
 def _creeping(seed: int) -> Iterator[Case]:
     """Yield clean robots, and ones with an effect, whose wheels creep at a speed in turn."""
-    robots = product([(), *((name,) for name in AT_REST)], MAKES, FLOORS)
+    robots = product(_none_or_one(AT_REST), MAKES, FLOORS)
     for turn, (effects, make, floor) in enumerate(robots, start=seed):
         creep = CREEP[(turn // 2 + turn // 6) % len(CREEP)]
         yield Case('creeping', effects, 'typical', make, floor, seed + turn, creep=creep)
@@ -127,6 +127,11 @@ def cases(families: Sequence[str], seeds: range, share: float) -> Iterator[Case]
         for case in FAMILIES[family](seed):
             if crc32(case.name.encode()) / 2**32 < share:
                 yield case
+
+
+def _none_or_one(names: Iterable[str]) -> list[tuple[str, ...]]:
+    """Return the effects of a clean robot, and of robots that have one."""
+    return [(), *((name,) for name in names)]
 
 
 def _make(seed: int) -> str:
