@@ -57,7 +57,7 @@ def test_noise_has_no_rhythm_that_is_worth_a_try() -> None:
 
 
 def test_refused_effect_that_explains_too_much_for_chance_is_no_silence() -> None:
-    selection, left = answer_after(UNCONFIRMED, 90.0)
+    selection, left, _ = answer_after(UNCONFIRMED, 90.0)
     assert selection.final.space.kinds == ()
     assert left is not None
     assert left.description.startswith('something that quadratic_drag explains in part')
@@ -66,12 +66,12 @@ def test_refused_effect_that_explains_too_much_for_chance_is_no_silence() -> Non
 def test_what_the_model_explains_as_well_alone_raises_no_suspicion() -> None:
     space = Space(Model(), (QuadraticDrag,))
     needless = replace(fitted()[0], space=space, u=space.prior())
-    assert answer_after(UNCONFIRMED, 90.0, tried=needless)[1] is None
+    assert answer_after(UNCONFIRMED, 90.0, tried=needless).unexplained is None
 
 
 @pytest.mark.parametrize('folds', [0.8, nan])  # of a law of time parts prove nothing
 def test_what_all_other_data_speak_against_raises_no_suspicion(folds: float) -> None:
-    assert answer_after(UNCONFIRMED, 90.0, held=0.8, folds=folds)[1] is None
+    assert answer_after(UNCONFIRMED, 90.0, held=0.8, folds=folds).unexplained is None
 
 
 @pytest.mark.parametrize(
@@ -80,7 +80,7 @@ def test_what_all_other_data_speak_against_raises_no_suspicion(folds: float) -> 
 def test_what_chance_can_do_and_what_is_told_already_raise_no_suspicion(
     outcome, delta_bic
 ) -> None:
-    assert answer_after(outcome, delta_bic)[1] is None
+    assert answer_after(outcome, delta_bic).unexplained is None
 
 
 @pytest.mark.parametrize(

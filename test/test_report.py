@@ -111,6 +111,13 @@ def test_reader_learns_when_twists_were_not_taken_as_stamped(
 
 
 @pytest.mark.parametrize('told', [page_text, summary])
+def test_reader_learns_that_wheels_creep_near_rest(told: Callable[[Identification], str]) -> None:
+    yielding = replace(by_hand.nothing_missing(), near_rest=90.0)
+    assert 'Friction near rest is of another form' in ' '.join(told(yielding).split())
+    assert 'Friction near rest' not in told(by_hand.nothing_missing())
+
+
+@pytest.mark.parametrize('told', [page_text, summary])
 def test_reader_learns_which_bias_was_taken_off(told: Callable[[Identification], str]) -> None:
     biased = replace(by_hand.nothing_missing(), biases=(Bias('first drive', 0.0071),))
     text = ' '.join(told(biased).split())

@@ -1,5 +1,7 @@
 """The predictor made linear: what small pushes add to its errors."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -58,6 +60,16 @@ def test_a_robot_held_by_friction_does_not_answer() -> None:
     stretch = driven(Model(), np.full((1000, 2), 0.5))
     push = np.ones((1000, 2, 1))
     assert np.all(response(Model(), stretch, FIRST_GAINS, FORCE).errors(push) == 0.0)
+
+
+def test_a_robot_that_only_the_push_of_its_stretch_moves_answers_as_the_predictor_does() -> None:
+    stretch = replace(
+        driven(Model(), np.full((1000, 2), 0.5)), push=np.full((1000, 2), [9.0, 0.2])
+    )
+    push = np.random.default_rng(1).normal(size=(1000, 2)).cumsum(axis=0) / 30.0
+    linear = response(Model(), stretch, FIRST_GAINS, FORCE).errors(push[..., None])[..., 0]
+    wanted = difference(Model(), stretch, push)
+    assert np.linalg.norm(linear - wanted) < 0.02 * np.linalg.norm(wanted)
 
 
 def test_errors_before_a_push_do_not_know_of_it() -> None:

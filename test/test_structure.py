@@ -11,11 +11,13 @@ from peer_robots import MAKES, exact
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
+from diffbot_sim.identification.doubt import SUSPICIOUS
 from diffbot_sim.identification.free_forms.dependence import (
     Dependence,
     against_the_model,
     realised,
 )
+from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.identification.free_forms.structure import dependences, find_dependences
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.physics import Model
@@ -41,6 +43,30 @@ def test_weak_force_in_proportion_to_something_is_told_as_a_line() -> None:
     left, *_ = left_by(rehearse(uneven, random_forces(3, 60.0, -9.0, 11.0), ROUGH, 3))
     assert (left.basis.variable, left.basis.axis) == ('wheel_force', 'difference')
     assert left.basis.size == 2
+
+
+def drive_on_wheels_that_creep(carpet: float = 0.0) -> tuple[Run, Model]:
+    """Return a drive on wheels that creep at 5 mm/s below static friction, and its model."""
+    make = MAKES['medium']
+    plant = make.plant._replace(creep=0.005, carpet=carpet, carpet_time=45.0)
+    how = Recording(v_noise=0.001, omega_noise=0.003)
+    run = record(plant, DRIVES['forces'](make, 4, how.duration, how.rate), how, 4)
+    return run, exact(make.plant)
+
+
+def test_wheels_that_creep_below_static_friction_leave_nothing_to_be_told() -> None:
+    run, declared = drive_on_wheels_that_creep()
+    fit, held_out = fitted(run, declared)
+    assert find_dependences(Screen(fit), held_out) != []
+    result = identify([run], declared, kinds=[])
+    assert result.verdict == 'nothing_missing'
+    assert result.near_rest > SUSPICIOUS
+
+
+def test_what_wheels_that_creep_roll_on_is_told() -> None:
+    fit, held_out = eased(*fitted(*drive_on_wheels_that_creep(carpet=0.3)))
+    left, *_ = find_dependences(Screen(fit), held_out)
+    assert left.basis.variable == 'friction_over_time'
 
 
 def test_force_that_is_always_there_is_told_to_depend_on_nothing() -> None:
@@ -102,6 +128,16 @@ def test_push_that_comes_again_and_again_is_no_bias() -> None:
     assert result.effects == ()
     assert result.unexplained is not None
     assert result.unexplained.variable == 'rhythm'
+
+
+def test_drive_of_a_wheel_that_pulses_is_told_with_its_period() -> None:
+    drive = random_forces(3, 60.0, -9.0, 11.0)
+    pulsing = np.column_stack([1.0 + 0.6 * np.sin(2.0 * np.pi * 2.5 * drive.time), drive.time**0])
+    result = identify([acted_otherwise(drive, drive.force * pulsing)], Model())
+    assert result.effects == ()
+    assert result.unexplained is not None
+    assert result.unexplained.variable == 'gain_rhythm'
+    assert 'every 0.4 s' in result.unexplained.description
 
 
 def test_wheels_that_stick_the_more_the_longer_they_rest_are_told_by_their_rest() -> None:

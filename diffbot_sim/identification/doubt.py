@@ -1,17 +1,19 @@
 """Doubt: names that do not stand up to what is left when they have had their say."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import product
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
-from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.free_forms.bases import again
 from diffbot_sim.identification.free_forms.dependence import Dependence, realised, worth_of
 from diffbot_sim.identification.free_forms.moments import pushed
+from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.identification.free_forms.structure import dependences, describe, find_dependences
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
@@ -38,63 +40,120 @@ SUSPICIOUS = 50.0
 # this share of it.
 WORTHIER = 0.5
 
+# Friction near rest is allowed for in about its form: of what that explains, as much again as this
+# share may be left.
+ALLOWED_SHARE = 0.5
 
-def doubt(selection: Selection, held_out: Sequence[Stretch]) -> tuple[Selection, Structure | None]:
+
+class Seen(NamedTuple):
+    """A selection, and held-out data, as they are looked at.
+
+    near_rest: by how much a friction near rest that is allowed for lowers the deviance.
+    """
+
+    selection: Selection
+    held_out: Sequence[Stretch]
+    near_rest: float = 0.0
+
+    @property
+    def allowed(self) -> float:
+        """By how much in BIC anything may seem to explain what is left of that friction."""
+        return ALLOWED_SHARE * self.near_rest
+
+
+class Doubted(NamedTuple):
+    """What stands up to doubt, what is left unnamed, and what was allowed for, as in Seen."""
+
+    selection: Selection
+    unexplained: Structure | None
+    near_rest: float = 0.0
+
+
+Look = Callable[[Selection, Sequence[Stretch]], Seen]
+# The name that is to go, empty where none is, and the structure that it goes for or that is left.
+Objection = tuple[str, Structure | None]
+
+
+def with_friction_eased(selection: Selection, held_out: Sequence[Stretch]) -> Seen:
+    """Look at a selection of which all fits allow for the same friction near rest."""
+    final, held = eased(selection.final, held_out)
+    if final is selection.final:
+        return Seen(selection, held)
+
+    def refitted(fit: Fit) -> Fit:
+        return fit_prediction(fit.space, final.stretches, fit.u, fit.gains)
+
+    without = {name: refitted(fit) for name, fit in selection.without.items()}
+    seen = replace(selection, base=refitted(selection.base), final=final, without=without)
+    gained = selection.final.deviance(final.sigma) - final.deviance(final.sigma)
+    return Seen(seen, held, gained)
+
+
+def doubt(selection: Selection, held_out: Sequence[Stretch], look: Look = Seen) -> Doubted:
     """Withdraw names that do not stand up to a free-form force; return what is left unnamed.
 
     So goes a name that a free form outdoes, the weakest where one free form outdoes all together,
     and a name whose law leaves much of what it is about, or explains little beside that.
+    look: how a selection is looked at, as it is unless given.
     """
-    final = selection.final
+    seen = look(selection, held_out)
+    name, left = _outdone_name(seen) or _left_over(seen)
+    if not name:
+        return Doubted(selection, left, seen.near_rest)
+    doubted = doubt(selection.withdrawn(name), held_out, look)
+    # There is structure, if only what the name went for.
+    return doubted._replace(unexplained=doubted.unexplained or left)
+
+
+def _outdone_name(seen: Seen) -> Objection | None:
+    """Return a name, of one effect or the weakest of several, that a free form outdoes."""
+    selection, final = seen.selection, seen.selection.final
     for kind in final.space.kinds:
         better = _outdone(selection.without[kind.name], final, (kind,))
         if better is not None:
-            return _without(selection, kind.name, describe(better, final), held_out)
+            return kind.name, describe(better, final)
     if len(final.space.kinds) > 1:
         better = _outdone(selection.base, final, final.space.kinds)
         if better is not None:
-            return _without(selection, _weakest(selection)[1], describe(better, final), held_out)
-    found = find_dependences(Screen(final), held_out)
+            return _weakest(selection)[1], describe(better, final)
+    return None
+
+
+def _left_over(seen: Seen) -> Objection:
+    """Return what is left beside all names, and the name that does not stand up to it."""
+    selection, final = seen.selection, seen.selection.final
+    beyond = find_dependences(Screen(final), seen.held_out)
+    found = [left for left in beyond if worth_of(left, final) > seen.allowed]
     if not found:
-        return _pushed(*_suspicion(selection, held_out))
+        return _suspicion(seen)
     for kind, left in product(final.space.kinds, found):
         rest = selection.without[kind.name]
         whole = _free_form_of(rest, final, left)
         if whole is not None:
-            return _without(selection, kind.name, describe(whole, rest), held_out)
-    return selection, describe(found[0], final)
+            return kind.name, describe(whole, rest)
+    return '', describe(found[0], final)
 
 
-def _suspicion(
-    selection: Selection, held_out: Sequence[Stretch]
-) -> tuple[Selection, Structure | None]:
+def _suspicion(seen: Seen) -> Objection:
     """Doubt silence, and the weakest name, beside a refused effect that is beyond chance."""
-    final = selection.final
+    selection, final = seen.selection, seen.selection.final
     refused = [t for t in selection.trials if t.refused and not t.evidence.is_contradicted]
     most = max(refused, key=lambda t: t.evidence.delta_bic, default=None)
     suspected = 0.0 if most is None else _worth_without_luck(most)
-    if most is None or suspected < SUSPICIOUS:
-        return selection, None
+    if most is None or suspected < SUSPICIOUS + seen.allowed:
+        # Beside a name moments may be its own misses.
+        return '', None if final.space.kinds else pushed(final)
     nearest = describe(dependences(Screen(final))[0], final)
     words = f'something that {most.kind.name} explains in part, though {_but(most)}, or'
     left = replace(nearest, description=f'{words} {nearest.description}')
     worth, weakest = _weakest(selection)
-    if WORTHIER * worth > suspected:
-        return selection, left
-    return _without(selection, weakest, left, held_out)
+    return '' if WORTHIER * worth > suspected else weakest, left
 
 
 def _but(refused: Trial) -> str:
     """Say why an effect that explains much may not enter."""
     incredible = refused.outcome == INCREDIBLE
     return 'only with values that no robot has' if incredible else 'not all along the runs'
-
-
-def _pushed(selection: Selection, left: Structure | None) -> tuple[Selection, Structure | None]:
-    """Ask moments of what nothing else is said of; beside a name they may be its own misses."""
-    if left is not None or selection.final.space.kinds:
-        return selection, left
-    return selection, pushed(selection.final)
 
 
 def _worth_without_luck(trial: Trial) -> float:
@@ -112,14 +171,6 @@ def _weakest(selection: Selection) -> tuple[float, str]:
     """Return the least worth of a name, and which it is; infinite where there is none."""
     worths = ((evidence.delta_bic, name) for name, evidence in selection.support.items())
     return min(worths, default=(inf, ''))
-
-
-def _without(
-    selection: Selection, name: str, instead: Structure, held_out: Sequence[Stretch]
-) -> tuple[Selection, Structure]:
-    """Doubt what is left when a name has gone; there is structure, if only what it went for."""
-    selection, structure = doubt(selection.withdrawn(name), held_out)
-    return selection, structure or instead
 
 
 def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence | None:

@@ -78,6 +78,7 @@ def identify(
         runs=agreement(selection.final, found.recordings.all),
         timings=found.timings(recordings),
         biases=tuple(filter(None, map(bias_of, given.all, recordings.all))),
+        near_rest=found.near_rest,
     )
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from diffbot_sim.errors import DataError
-from diffbot_sim.identification.doubt import doubt
+from diffbot_sim.identification.doubt import SUSPICIOUS, doubt, with_friction_eased
 from diffbot_sim.identification.fitting.calibration import calibrate, simulation_error
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filtering import filter_behind, unfiltered
@@ -28,16 +28,19 @@ from diffbot_sim.physics.model import Model
 class Found:
     """What was found in recordings, as they were taken to be timed.
 
-    undoubted: the fit before names were doubted; time_constant [s]: of the filter of their twists
-    that was undone, 0 if none was; undecided: whether twists may be older than their stamps.
+    undoubted: as it was before names were doubted; near_rest: by how much a friction near rest of
+    another form than declared, which is allowed for, lowers the deviance; time_constant [s]: of
+    the filter of their twists that was undone, 0 if none was; undecided: whether twists may be
+    older than their stamps.
     """
 
     recordings: Recordings
     held_out: tuple[Stretch, ...]
     recalibrated: Fit
-    undoubted: Fit
+    undoubted: Selection
     selection: Selection
     unexplained: Structure | None
+    near_rest: float = 0.0
     time_constant: float = 0.0
     undecided: bool = False
 
@@ -57,6 +60,20 @@ def search(
 
     Raises DataError where the runs are too short or do not move.
     """
+    found = _timed(recordings, declared, kinds, progress)
+    if found.unexplained is None:
+        return found
+    progress('allowing for friction near rest')
+    doubted = doubt(found.undoubted, found.held_out, with_friction_eased)
+    # What chance could allow for excuses nothing, nor does what leaves something else to be told.
+    excused = doubted.unexplained is None and doubted.near_rest > SUSPICIOUS
+    return replace(found, **doubted._asdict()) if excused else found
+
+
+def _timed(
+    recordings: Recordings, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
+) -> Found:
+    """Search, and search again where twists may be older than their stamps, or filtered."""
     found = _found(recordings.each(timely), declared, kinds, progress)
     ages = Ages(found.selection.final, found.recordings)
     told = found.selection.final.space.kinds or found.unexplained
@@ -66,7 +83,7 @@ def search(
         if is_taken(older, found.selection.final, other.selection.final):
             return other
     # What is left of a filter may be held against the names that stand for it.
-    time_constant = filter_behind(found.undoubted)
+    time_constant = filter_behind(found.undoubted.final)
     if time_constant > 0.0:
         progress('undoing a filter of the twists')
         undone = found.recordings.each(partial(unfiltered, time_constant=time_constant))
@@ -95,7 +112,7 @@ def _found(
     selection = select(base, kinds, held_out, progress)
     progress('looking for structure that is left')
     doubted = doubt(selection, held_out)
-    return Found(recordings, held_out, recalibrated, selection.final, *doubted)
+    return Found(recordings, held_out, recalibrated, selection, *doubted)
 
 
 def _check(stretches: Sequence[Stretch]) -> None:

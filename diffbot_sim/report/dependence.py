@@ -61,6 +61,7 @@ ANGLES = (
     'wheel_angle',
     'friction_over_wheel_angle',
     'rhythm',
+    'gain_rhythm',
     'force_steps',
 )
 # Of variables in which structure without a name is looked for; the others are those above.
@@ -69,6 +70,7 @@ STRUCTURE_LABELS = {
     'turning': 'turn rate ω [rad/s]',
     'cornering': 'v·ω [m/s²]',
     'rhythm': 'phase [°]',
+    'gain_rhythm': 'phase [°]',
     'wheel_angle': 'right wheel angle times the order [°]',
     'friction_over_wheel_angle': 'right wheel angle times the order [°]',
     'wheel_speed': 'speed of a wheel [m/s]',

@@ -42,6 +42,7 @@ def as_dict(result: Identification) -> dict[str, Any]:
         'runs': _runs(result),
         'timings': [asdict(timing) for timing in result.timings],
         'biases': [asdict(bias) for bias in result.biases],
+        'near_rest': result.near_rest,
     }
 
 

@@ -41,6 +41,11 @@ BIAS = (
     'off its turn rates.'
 )
 
+NEAR_REST = (
+    'Friction near rest is of another form than the declared law, as where wheels creep or yield '
+    'before they slide. That was allowed for: without it, something would seem unexplained.'
+)
+
 
 def verdict(result: Identification) -> str:
     """Say the answer in one sentence."""
@@ -136,10 +141,10 @@ def disagreements(runs: Sequence[RunCheck]) -> list[str]:
 
 
 def of_recordings(result: Identification) -> list[str]:
-    """Say of which runs the twists were not taken as they were recorded, and why."""
+    """Say what was not taken as it was recorded or declared, and why."""
     biases = [f'{it.run}: {BIAS.format(_rate(it.rate))}' for it in result.biases]
     late = [f'{it.run}: {TIMINGS[it.taken].format(_milliseconds(it))}' for it in result.timings]
-    return [*biases, *late]
+    return [*biases, *late, *([NEAR_REST] if result.near_rest > 0.0 else [])]
 
 
 def _milliseconds(it: Timing) -> str:

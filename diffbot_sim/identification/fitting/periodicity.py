@@ -66,12 +66,18 @@ def _orders(angles: Array, errors: Array, teeth: int) -> tuple[float, ...]:
 
 def rates(seen: Sequence[View]) -> tuple[float, ...]:
     """Return the cycles per second at which the innovations are strongest."""
-    return _rates(seen, 1)
+    return _rates(seen, _apart(seen), 1)
 
 
 def repeats(seen: Sequence[View]) -> tuple[float, ...]:
     """Return the cycles per second of which several harmonics together are strongest."""
-    return _rates(seen, TEETH)
+    return _rates(seen, _apart(seen), TEETH)
+
+
+def gain_rates(seen: Sequence[View]) -> tuple[float, ...]:
+    """Return those at which innovations in proportion to the commanded forces are strongest."""
+    _, errors = _by_wheel(seen)
+    return _rates(seen, errors * np.concatenate([view.force for view in seen]), 1)
 
 
 def force_rates(seen: Sequence[View]) -> tuple[float, ...]:
@@ -85,9 +91,13 @@ def force_rates(seen: Sequence[View]) -> tuple[float, ...]:
     return _strongest(band, spacing, 2.0 * np.pi * force, errors, level=STEP_LEVEL)
 
 
-def _rates(seen: Sequence[View], teeth: int) -> tuple[float, ...]:
+def _apart(seen: Sequence[View]) -> Array:
+    """Return innovations over their scale."""
+    return np.concatenate([view.innovation / view.fit.sigma for view in seen])
+
+
+def _rates(seen: Sequence[View], errors: Array, teeth: int) -> tuple[float, ...]:
     time = np.concatenate([view.stretch.time for view in seen])
-    errors = np.concatenate([view.innovation / view.fit.sigma for view in seen])
     spacing = 1.0 / (FINENESS * max(float(np.ptp(view.stretch.time)) for view in seen))
     interval = max(view.stretch.interval for view in seen)
     highest = min(HIGHEST_RATE, 1.0 / (SAMPLES_PER_CYCLE * interval))

@@ -59,8 +59,8 @@ class Prediction:
 def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = None) -> Prediction:
     """Predict each sample of a stretch from those before it.
 
-    gains, shape (6,): see NO_GAIN. push, shape (k, 2): an extra force [N] and torque [N·m] on the
-    body after each sample.
+    gains, shape (6,): see NO_GAIN. push, shape (k, 2): a force [N] and torque [N·m] on the body
+    after each sample, beside the stretch's own.
     """
     count, model = len(stretch.time), embedded(model)
     commands = scheduled(model, stretch.run.commands)
@@ -79,7 +79,7 @@ def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = N
         np.array(stretch.run.odometry.means, dtype=float),
         stretch.heading,
         np.ascontiguousarray(gains),
-        np.zeros((count, 2)) if push is None else np.ascontiguousarray(push),
+        np.ascontiguousarray(stretch.pushes if push is None else stretch.pushes + push),
         *workspace(),
         out,
         snapshots,

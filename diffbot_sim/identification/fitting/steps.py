@@ -58,7 +58,7 @@ class Steps:
             np.ascontiguousarray(stretch.time),
             by,
             np.array(stretch.run.odometry.means, dtype=float),
-            np.ascontiguousarray(self._before.disturbance),
+            np.ascontiguousarray(self._before.disturbance + stretch.pushes),
             self._before.snapshots,
             *_place(self._before),
             out,

@@ -1,6 +1,6 @@
 """Free-form forces: functions of one variable, along one axis, on given stretches."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import inf
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.views import View, views
-from diffbot_sim.identification.free_forms.variables import VARIABLES
+from diffbot_sim.identification.free_forms.variables import TOLD, VARIABLES
 from diffbot_sim.identification.recordings.stretches import Stretch, largest_command
 from diffbot_sim.records import Array
 
@@ -85,13 +85,13 @@ class Basis:
         return points, self.scale * design @ amounts[:shown], self.scale * error
 
 
-def bases(fit: Fit, stretches: Sequence[Stretch]) -> list[Basis]:
-    """Return every basis on these stretches."""
+def bases(fit: Fit, stretches: Sequence[Stretch], names: Iterable[str] = TOLD) -> list[Basis]:
+    """Return every basis of these variables, or of all that are told, on these stretches."""
     seen = views(fit, stretches)
     unit = UNIT_SHARE * largest_command(stretches)
     return [
         Basis(axis, name, grid, unit, fit.model.half_separation, columns)
-        for name, grid, columns in _evaluated(seen)
+        for name, grid, columns in _evaluated(seen, names)
         for axis in VARIABLES[name].axes
     ]
 
@@ -103,7 +103,10 @@ def again(like: Basis, fit: Fit, stretches: Sequence[Stretch]) -> Basis:
     return Basis(like.axis, like.variable, like.grid, like.unit, like.lever, columns)
 
 
-def _evaluated(views: Sequence[View]) -> Iterator[tuple[str, Array, tuple[Array, ...]]]:
-    for name, variable in VARIABLES.items():
-        for grid in variable.form.grids(views):
-            yield name, grid, tuple(variable.form.columns(view, grid) for view in views)
+def _evaluated(
+    views: Sequence[View], names: Iterable[str]
+) -> Iterator[tuple[str, Array, tuple[Array, ...]]]:
+    for name in names:
+        form = VARIABLES[name].form
+        for grid in form.grids(views):
+            yield name, grid, tuple(form.columns(view, grid) for view in views)

@@ -177,6 +177,21 @@ class Odd:
 
 
 @dataclass(frozen=True)
+class Near(Odd):
+    """The same with given knots, beyond the last of which it is constant.
+
+    sets: of sizes, each tried on its own.
+    """
+
+    sets: tuple[tuple[float, ...], ...] = ()
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return the sets of knots, whatever was seen."""
+        del views
+        return [np.array(knots) for knots in self.sets]
+
+
+@dataclass(frozen=True)
 class Periodic:
     """Waves in an angle, in proportion to weights: of the heading, a wheel's turn, time.
 

@@ -9,6 +9,7 @@ import numpy as np
 from diffbot_sim.identification.fitting.periodicity import (
     TEETH,
     force_rates,
+    gain_rates,
     rates,
     repeats,
     rubbing_orders,
@@ -24,6 +25,7 @@ from diffbot_sim.identification.free_forms.forms import (
     Changes,
     Constant,
     Growth,
+    Near,
     Odd,
     Of,
     Past,
@@ -48,6 +50,8 @@ from diffbot_sim.records import Array
 
 # Rates that differ by a line width, among which the strongest were chosen; a generous count.
 LOOKED_AT = 1000
+# Speeds below which contacts creep or bend, and at which laws of Stribeck friction differ [m/s].
+NEAR_REST = ((0.0,), (0.0, 0.005, 0.02, 0.08))
 Form = Constant | Piecewise | Growth | Spans | TwoSided | Odd | Periodic | Past | Swinging
 BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
 
@@ -173,6 +177,11 @@ VARIABLES = {
         Odd(lambda view: view.wheel_speed),
         WHEELS,
     ),
+    'near_rest': Variable(
+        "each wheel's speed near rest (alike forward and backward)",
+        Near(lambda view: view.wheel_speed, sets=NEAR_REST),
+        ('wheels',),
+    ),
     'rolling_one_way': Variable(
         "each wheel's speed (pushing the same way forward and backward)",
         Piecewise(_sizes, _rolls),
@@ -245,6 +254,16 @@ VARIABLES = {
         Growth(_time_of_wheels, _share_of_force, GROWTH_KNOTS),
         WHEELS,
     ),
+    'gain_rhythm': Variable(
+        'time, the same again every {period:.3g} s, in proportion to the commanded force',
+        Periodic(
+            lambda view: 2.0 * np.pi * _time_of_wheels(view),
+            _alone(gain_rates),
+            LOOKED_AT,
+            weights=_share_of_force,
+        ),
+        ('wheels',),
+    ),
     'friction_over_time': Variable(
         'time, against the motion', Growth(_time_of_wheels, _rolling, GROWTH_KNOTS), WHEELS
     ),
@@ -273,3 +292,6 @@ VARIABLES = {
         by_place,
     ),
 }
+# What is allowed for before anything is told, and not told itself; all the others are.
+ALLOWED_FOR = ('near_rest',)
+TOLD = tuple(name for name in VARIABLES if name not in ALLOWED_FOR)

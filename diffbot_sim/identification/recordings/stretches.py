@@ -30,7 +30,8 @@ class Stretch:
 
     time [s], shape (k,), counted from the start of the run; twist, shape (k, 2); heading [rad],
     shape (k,), measured where a pose was recorded, otherwise the integral of ω; start: state at
-    time[0]; used: samples that count in fits, shape (k,).
+    time[0]; used: samples that count in fits, shape (k,); push: a force [N] and torque [N·m] that
+    acts on the body after each sample, shape (k, 2), none unless given.
     """
 
     run: Run
@@ -40,11 +41,17 @@ class Stretch:
     pose: Array | None
     start: State
     used: Array
+    push: Array | None = None
 
     @property
     def interval(self) -> float:
         """Median time between samples [s]."""
         return median_interval(self.time)
+
+    @property
+    def pushes(self) -> Array:
+        """The push after each sample, zeros where there is none, shape (k, 2)."""
+        return np.zeros((len(self.time), 2)) if self.push is None else self.push
 
 
 def whole(runs: Sequence[Run]) -> tuple[Stretch, ...]:

@@ -1,0 +1,57 @@
+"""Friction near rest: of whatever form it is, it is allowed for before something is unexplained.
+
+The declared friction holds a wheel at rest until it breaks away, and falls exponentially from
+there. Contacts creep, or bend like springs, and laws of Stribeck friction differ: at a few
+centimetres a second all that is known of friction is an approximation. It is in every force that
+acts against the motion, whatever else that depends on, and none of them is told because of it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
+from diffbot_sim.identification.free_forms.bases import again, bases
+from diffbot_sim.identification.free_forms.dependence import (
+    against_the_model,
+    explained_by,
+    realised,
+    worth_of,
+)
+from diffbot_sim.identification.free_forms.variables import ALLOWED_FOR
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.selection.screening import Screen
+
+Stretches = tuple[Stretch, ...]
+
+# How often what is allowed for is looked at again: which way a wheel creeps follows from it.
+ROUNDS = 3
+
+
+def eased(fit: Fit, held_out: Sequence[Stretch]) -> tuple[Fit, Stretches]:
+    """Return a fit, and held-out data, with a push in place of friction near rest, if it pays."""
+    held = tuple(held_out)
+    for _ in range(ROUNDS):
+        better = _eased_once(fit, held)
+        if better is None:
+            break
+        fit, held = better
+    return fit, held
+
+
+def _eased_once(fit: Fit, held_out: Stretches) -> tuple[Fit, Stretches] | None:
+    screen = Screen(fit)
+    tried = (explained_by(screen, b) for b in bases(fit, fit.stretches, ALLOWED_FOR))
+    fair = (against_the_model(fit, realised(fit, dependence)) for dependence in tried)
+    friction = max(fair, key=lambda dependence: worth_of(dependence, fit))
+    if worth_of(friction, fit) <= 0.0:
+        return None
+
+    def pushed(stretches: Stretches) -> Stretches:
+        basis = again(friction.basis, fit, stretches)
+        pushes = (basis.total(friction.amounts, index) for index in range(len(stretches)))
+        return tuple(replace(s, push=s.pushes + p) for s, p in zip(stretches, pushes, strict=True))
+
+    u, gains = np.split(np.concatenate([fit.u, fit.gains]) + friction.adaptation, [len(fit.u)])
+    return fit_prediction(fit.space, pushed(fit.stretches), u, gains), pushed(held_out)
