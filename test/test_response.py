@@ -38,7 +38,8 @@ def wandering(mean: float, seed: int = 0):
 def difference(model: Model, stretch: Stretch, push):
     """Return what a push adds to the innovations, half of its way back and forth."""
     more, less = (
-        predict(model, stretch, FIRST_GAINS, sign * FORCE * push).innovation for sign in (1, -1)
+        predict(model, stretch.pushed(sign * FORCE * push), FIRST_GAINS).innovation
+        for sign in (1, -1)
     )
     return (more - less) / (2.0 * FORCE)
 

@@ -39,7 +39,6 @@ SUSPICIOUS = 50.0
 # A name that is worth less is believed beside what is left, or refused, if that explains less than
 # this share of it.
 WORTHIER = 0.5
-
 # Friction near rest is allowed for in about its form: of what that explains, as much again as this
 # share may be left.
 ALLOWED_SHARE = 0.5
@@ -84,7 +83,9 @@ def with_friction_eased(selection: Selection, held_out: Sequence[Stretch]) -> Se
         return fit_prediction(fit.space, final.stretches, fit.u, fit.gains)
 
     without = {name: refitted(fit) for name, fit in selection.without.items()}
-    seen = replace(selection, base=refitted(selection.base), final=final, without=without)
+    # The nominal fit is asked beside several names only.
+    base = refitted(selection.base) if len(without) > 1 else selection.base
+    seen = replace(selection, base=base, final=final, without=without)
     gained = selection.final.deviance(final.sigma) - final.deviance(final.sigma)
     return Seen(seen, held, gained)
 

@@ -85,18 +85,11 @@ class Fit:
         return derivatives(errors, point, errors(point), joint_bounds(self.space))
 
 
-def whitened(
-    stretches: Sequence[Stretch],
-    model: Model,
-    gains: Array,
-    sigma: Array,
-    pushes: Sequence[Array] | None = None,
-) -> Array:
+def whitened(stretches: Sequence[Stretch], model: Model, gains: Array, sigma: Array) -> Array:
     """Return used innovations of several stretches, one after the other, over sigma: (n, 2)."""
     rows = []
-    for index, stretch in enumerate(stretches):
-        push = None if pushes is None else pushes[index]
-        innovation = predict(model, stretch, gains, push).innovation
+    for stretch in stretches:
+        innovation = predict(model, stretch, gains).innovation
         used = (innovation * stretch.used[:, None])[stretch.used > 0]
         # Parameters far from any robot make numbers that cannot be squared: these only have to
         # be bad.

@@ -56,11 +56,10 @@ class Prediction:
     snapshots: Array
 
 
-def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = None) -> Prediction:
+def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
     """Predict each sample of a stretch from those before it.
 
-    gains, shape (6,): see NO_GAIN. push, shape (k, 2): a force [N] and torque [N·m] on the body
-    after each sample, beside the stretch's own.
+    gains, shape (6,): see NO_GAIN.
     """
     count, model = len(stretch.time), embedded(model)
     commands = scheduled(model, stretch.run.commands)
@@ -79,7 +78,7 @@ def predict(model: Model, stretch: Stretch, gains: Array, push: Array | None = N
         np.array(stretch.run.odometry.means, dtype=float),
         stretch.heading,
         np.ascontiguousarray(gains),
-        np.ascontiguousarray(stretch.pushes if push is None else stretch.pushes + push),
+        np.ascontiguousarray(stretch.pushes),
         *workspace(),
         out,
         snapshots,

@@ -35,6 +35,7 @@ class Steps:
     def __init__(self, model: Model, stretch: Stretch, gains: Array) -> None:
         self._model, self._stretch = embedded(model), stretch
         self._before = predict(model, stretch, gains)
+        self._acting = np.ascontiguousarray(self._before.disturbance + stretch.pushes)
         self._predicted = self._taken(self._model, UNCHANGED)
 
     def changed(self, model: Model, by: Array = UNCHANGED) -> Array:
@@ -58,7 +59,7 @@ class Steps:
             np.ascontiguousarray(stretch.time),
             by,
             np.array(stretch.run.odometry.means, dtype=float),
-            np.ascontiguousarray(self._before.disturbance + stretch.pushes),
+            self._acting,
             self._before.snapshots,
             *_place(self._before),
             out,

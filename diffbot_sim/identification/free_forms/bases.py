@@ -66,6 +66,10 @@ class Basis:
         force = np.einsum('kqc,q->kc', self.values[stretch], amounts)
         return np.asarray(self.unit * force @ ON_BODY[self.axis] * [1.0, self.lever])
 
+    def pushed(self, stretches: Sequence[Stretch], amounts: Array) -> tuple[Stretch, ...]:
+        """Return its stretches, pushed by all functions together, in these amounts."""
+        return tuple(s.pushed(self.total(amounts, index)) for index, s in enumerate(stretches))
+
     def strength(self, amounts: Array) -> float:
         """Return the rms of the force [N], or torque [N·m], that amounts stand for."""
         force = np.concatenate([np.einsum('kqc,q->kc', v, amounts) for v in self.values])

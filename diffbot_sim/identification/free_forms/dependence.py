@@ -138,8 +138,7 @@ def against_the_model(fit: Fit, dependence: Dependence) -> Dependence:
 def acting(fit: Fit, basis: Basis, at: Array, stretches: Sequence[Stretch]) -> Array:
     """Return whitened errors on stretches at a point: u, gains, amounts of the basis."""
     u, gains, amounts = np.split(at, [len(fit.u), len(fit.u) + len(fit.gains)])
-    pushes = [basis.total(amounts, index) for index in range(len(stretches))]
-    return whitened(stretches, fit.space.model(u), gains, fit.sigma, pushes)
+    return whitened(basis.pushed(stretches, amounts), fit.space.model(u), gains, fit.sigma)
 
 
 def sensitivity(screen: Screen, basis: Basis) -> Array:

@@ -7,7 +7,6 @@ acts against the motion, whatever else that depends on, and none of them is told
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -49,9 +48,7 @@ def _eased_once(fit: Fit, held_out: Stretches) -> tuple[Fit, Stretches] | None:
         return None
 
     def pushed(stretches: Stretches) -> Stretches:
-        basis = again(friction.basis, fit, stretches)
-        pushes = (basis.total(friction.amounts, index) for index in range(len(stretches)))
-        return tuple(replace(s, push=s.pushes + p) for s, p in zip(stretches, pushes, strict=True))
+        return again(friction.basis, fit, stretches).pushed(stretches, friction.amounts)
 
     u, gains = np.split(np.concatenate([fit.u, fit.gains]) + friction.adaptation, [len(fit.u)])
     return fit_prediction(fit.space, pushed(fit.stretches), u, gains), pushed(held_out)

@@ -53,6 +53,10 @@ class Stretch:
         """The push after each sample, zeros where there is none, shape (k, 2)."""
         return np.zeros((len(self.time), 2)) if self.push is None else self.push
 
+    def pushed(self, push: Array) -> 'Stretch':
+        """Return the stretch with one more push, shape (k, 2)."""
+        return replace(self, push=self.pushes + push)
+
 
 def whole(runs: Sequence[Run]) -> tuple[Stretch, ...]:
     """Return each run as one stretch."""
