@@ -94,18 +94,18 @@ def _drives(seed: int) -> Iterator[Case]:
 
 def _odometry(seed: int) -> Iterator[Case]:
     """Yield clean robots, and ones with an effect, each with the sensors whose turn it is."""
-    robots = product(_none_or_one(SENSED), MAKES, FLOORS)
-    for turn, (effects, make, floor) in enumerate(robots, start=seed + 1):
+    robots = list(product(_none_or_one(SENSED), MAKES, FLOORS))
+    for turn, (effects, make, floor) in enumerate(robots, start=seed * len(robots) + 1):
         sensors = tuple(SENSORS)[turn % len(SENSORS)]
-        yield Case('odometry', effects, 'typical', make, floor, seed + turn, sensors=sensors)
+        yield Case('odometry', effects, 'typical', make, floor, turn, sensors=sensors)
 
 
 def _creeping(seed: int) -> Iterator[Case]:
     """Yield clean robots, and ones with an effect, whose wheels creep at a speed in turn."""
-    robots = product(_none_or_one(AT_REST), MAKES, FLOORS)
-    for turn, (effects, make, floor) in enumerate(robots, start=seed):
+    robots = list(product(_none_or_one(AT_REST), MAKES, FLOORS))
+    for turn, (effects, make, floor) in enumerate(robots, start=seed * len(robots)):
         creep = CREEP[(turn // 2 + turn // 6) % len(CREEP)]
-        yield Case('creeping', effects, 'typical', make, floor, seed + turn, creep=creep)
+        yield Case('creeping', effects, 'typical', make, floor, turn, creep=creep)
 
 
 FAMILIES: dict[str, Callable[[int], Iterator[Case]]] = {
