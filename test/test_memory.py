@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from diffbot_sim.identification.statistics.memory import fall_of_deviance
+from diffbot_sim.identification.statistics.memory import (
+    fall_of_deviance,
+    falls_beyond_past,
+)
 
 RANDOM = np.random.default_rng(3)
 WHITE = RANDOM.normal(size=(4000, 2))
@@ -21,6 +24,13 @@ def test_foreseeing_coloured_errors_from_their_past_explains_nothing() -> None:
     foreseen = 0.5 * np.vstack([np.zeros((1, 2)), COLOURED[:-1]])
     assert np.sum(COLOURED**2) - np.sum((COLOURED - foreseen) ** 2) > 500.0
     assert fall_of_deviance(COLOURED, COLOURED - foreseen) < 25.0
+
+
+def test_differences_of_counts_that_are_foreseen_from_the_last_one_weigh_no_less() -> None:
+    differences = np.diff(WHITE, axis=0)
+    smaller = differences[1:] + 0.05 * differences[:-1]
+    assert np.sum(differences[1:] ** 2) - np.sum(smaller**2) > 500.0
+    assert np.all(np.abs(falls_beyond_past(differences[1:], smaller)) < 25.0)
 
 
 def test_a_worse_fit_explains_nothing() -> None:

@@ -28,5 +28,20 @@ def test_floor_of_a_coarse_encoder_is_the_error_of_its_steps(step: float) -> Non
     assert (floor.v_rmse, floor.omega_rmse) == pytest.approx(error, rel=0.1)
 
 
+def test_floor_of_a_robot_that_mostly_rests_is_that_of_its_moving() -> None:
+    moves = (np.arange(len(TIME)) < 0.3 * len(TIME))[:, None]
+    noise = np.random.default_rng(2).normal(size=TRUE.shape) * [0.004, 0.008] * moves
+    floor = noise_floor([TRUE * moves + noise], [TRUE * moves])
+    error = np.sqrt(np.mean(noise**2, axis=0))
+    assert (floor.v_rmse, floor.omega_rmse) == pytest.approx(error, rel=0.1)
+
+
+def test_outliers_do_not_raise_the_floor() -> None:
+    noise = np.random.default_rng(3).normal(size=TRUE.shape) * 0.004
+    noise[::100] += 0.5
+    floor = noise_floor([TRUE + noise], [TRUE])
+    assert floor.v_rmse == pytest.approx(0.004, rel=0.05)
+
+
 def test_what_stands_still_has_no_resolution() -> None:
     np.testing.assert_array_equal(resolution(np.zeros((100, 2))), 0.0)

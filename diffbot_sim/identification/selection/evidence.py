@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import inf, isnan, nan
+from math import isnan, nan
 from operator import itemgetter
 
 import numpy as np
@@ -14,7 +14,7 @@ from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.gains import block_gain, folds_chance
 from diffbot_sim.identification.statistics.guards import AGAINST, best_look, elsewhere
-from diffbot_sim.identification.statistics.memory import fall_of_deviance
+from diffbot_sim.identification.statistics.memory import fall_of_deviance, falls_beyond_past
 from diffbot_sim.identification.statistics.projection import Projection
 from diffbot_sim.identification.statistics.robust import huber, influence
 from diffbot_sim.records import Array
@@ -95,28 +95,35 @@ def _added(small: Fit, large: Fit) -> tuple[list[int], list[int]]:
 
 def delta_bic(first: Fit, second: Fit) -> float:
     """Return how much lower the second's BIC is than the first's; they need not be nested."""
-    return _delta_bic(first, second, np.minimum(first.sigma, second.sigma), second.whitened.size)
+    sigma = np.minimum(first.sigma, second.sigma)
+    fall = first.deviance(sigma) - second.deviance(sigma)
+    return fall - _price(first, second, second.whitened.size)
 
 
 def delta_bic_of_speed(first: Fit, second: Fit) -> float:
-    """Return the same for what is told of the speed; turn rates need not be the same data."""
-    return _delta_bic_of(0, first, second)
+    """Return the same for what is told of the speed; turn rates need not be the same data.
+
+    Both count beyond what past errors tell. A count that one difference of an encoder lacks, the
+    next one has; and where a controller hears that, a robot that is late seems to foresee it.
+    """
+    return float(_falls_beyond(first, second)[0]) - _price(first, second, len(second.whitened))
 
 
 def delta_bic_of_both(first: Fit, second: Fit) -> float:
     """Return the same for what is told of speed or turn rate, whichever gains less."""
-    return min(_delta_bic_of(0, first, second), _delta_bic_of(1, first, second))
+    least = float(_falls_beyond(first, second).min())
+    return least - _price(first, second, len(second.whitened))
 
 
-def _delta_bic_of(axis: int, first: Fit, second: Fit) -> float:
-    sigma = np.full(2, inf)
-    sigma[axis] = min(first.sigma[axis], second.sigma[axis])
-    return _delta_bic(first, second, sigma, len(second.whitened))
+def _falls_beyond(first: Fit, second: Fit) -> Array:
+    """Return by how much less the second's errors of v and ω weigh than the first's."""
+    sigma = np.minimum(first.sigma, second.sigma)
+    before, after = (fit.whitened * (fit.sigma / sigma) for fit in (first, second))
+    return falls_beyond_past(before, after)
 
 
-def _delta_bic(first: Fit, second: Fit, sigma: Array, samples: int) -> float:
-    fall = first.deviance(sigma) - second.deviance(sigma)
-    return fall - (len(second.u) - len(first.u)) * float(np.log(samples))
+def _price(first: Fit, second: Fit, samples: int) -> float:
+    return (len(second.u) - len(first.u)) * float(np.log(samples))
 
 
 def held_out_gain(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> tuple[float, float]:

@@ -22,8 +22,15 @@ def fall_of_deviance(before: Array, after: Array) -> float:
     Weighed as they are, and beyond what their own past tells of them: the lesser fall counts.
     """
     as_they_are = float(huber(before).sum() - huber(after).sum())
-    beyond = len(before) * float(np.log(unforeseen(before) / unforeseen(after)).sum())
-    return max(min(as_they_are, beyond), 0.0)
+    return max(min(as_they_are, float(falls_beyond_past(before, after).sum())), 0.0)
+
+
+def falls_beyond_past(before: Array, after: Array) -> Array:
+    """Return how much less the columns of some whitened errors weigh beyond what their past tells.
+
+    Of both (n, 2); shape (2,), negative where they weigh more.
+    """
+    return np.asarray(len(before) * np.log(unforeseen(before) / unforeseen(after)))
 
 
 def unforeseen(errors: Array) -> Array:

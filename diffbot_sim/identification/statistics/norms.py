@@ -1,17 +1,19 @@
 """How large errors are, and how large those of a perfect model would be."""
 
 from collections.abc import Sequence
+from math import inf
 
 import numpy as np
 
 from diffbot_sim.identification.result import ErrorNorm
-from diffbot_sim.identification.statistics.robust import NORMAL
 from diffbot_sim.records import Array
 
 # Distinct values [m/s, rad/s] closer than this are one, apart by rounding.
 SAME = 1e-9
 # White noise gives second differences of this many times its deviation.
 SECOND = np.sqrt(6.0)
+# What lies so many spreads away is no noise, and how often the spread is taken without that.
+FAR, CLIPS = 5.0, 10
 
 
 def norm(errors: Array) -> ErrorNorm:
@@ -40,11 +42,16 @@ def _white(errors: Array) -> Array:
     """Return what white noise leaves in the second differences, scaled back.
 
     Model errors are smooth from sample to sample and vanish there. The few largest, where a stop
-    is a sample early or late, are left out.
+    is a sample early or late, are left out: measured by the spread of the others, of which most
+    may be 0, as those of an encoder are at rest.
     """
     noise = np.diff(errors, n=2, axis=0) / SECOND
-    limit = 5.0 * NORMAL * np.median(np.abs(noise), axis=0)
-    return np.where(np.abs(noise) <= np.maximum(limit, 1e-12), noise, 0.0)
+    limit = np.full(noise.shape[1], inf)
+    for _ in range(CLIPS):
+        kept = np.abs(noise) <= limit
+        spread = np.sqrt(np.sum(noise**2 * kept, axis=0) / np.maximum(kept.sum(axis=0), 1))
+        limit = FAR * spread
+    return np.where(np.abs(noise) <= limit, noise, 0.0)
 
 
 def resolution(twist: Array) -> Array:
