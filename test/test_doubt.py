@@ -69,6 +69,17 @@ def test_what_the_model_explains_as_well_alone_raises_no_suspicion() -> None:
     assert answer_after(UNCONFIRMED, 90.0, tried=needless).unexplained is None
 
 
+def test_name_that_explains_nothing_as_it_is_looked_at_is_withdrawn() -> None:
+    fit, held_out = fitted()
+    space = Space(Model(), (QuadraticDrag,))
+    needless = replace(fit, space=space, u=space.prior())
+    sure = Evidence(90.0, 0.0, 0.0, 0.1, 0.0, 0.0)
+    name = QuadraticDrag.name
+    selection = Selection(fit, needless, (), {name: fit}, {name: sure}, {name: ()})
+    doubted = doubt(selection, held_out)
+    assert (doubted.selection.final, doubted.unexplained) == (fit, None)
+
+
 @pytest.mark.parametrize('folds', [0.8, nan])  # of a law of time parts prove nothing
 def test_what_all_other_data_speak_against_raises_no_suspicion(folds: float) -> None:
     assert answer_after(UNCONFIRMED, 90.0, held=0.8, folds=folds).unexplained is None

@@ -93,17 +93,27 @@ def with_friction_eased(selection: Selection, held_out: Sequence[Stretch]) -> Se
 def doubt(selection: Selection, held_out: Sequence[Stretch], look: Look = Seen) -> Doubted:
     """Withdraw names that do not stand up to a free-form force; return what is left unnamed.
 
-    So goes a name that a free form outdoes, the weakest where one free form outdoes all together,
-    and a name whose law leaves much of what it is about, or explains little beside that.
+    So goes a name that nothing needs as it is looked at, one that a free form outdoes, the weakest
+    where one free form outdoes all together, and a name whose law leaves much of what it is about,
+    or explains little beside that.
     look: how a selection is looked at, as it is unless given.
     """
     seen = look(selection, held_out)
-    name, left = _outdone_name(seen) or _left_over(seen)
+    name, left = _needless_name(seen) or _outdone_name(seen) or _left_over(seen)
     if not name:
         return Doubted(selection, left, seen.near_rest)
     doubted = doubt(selection.withdrawn(name), held_out, look)
     # There is structure, if only what the name went for.
     return doubted._replace(unexplained=doubted.unexplained or left)
+
+
+def _needless_name(seen: Seen) -> Objection | None:
+    """Return a name that explains nothing beside what is allowed for: it stood for that."""
+    final = seen.selection.final
+    for name, rest in seen.selection.without.items():
+        if delta_bic(rest, final) <= 0.0:
+            return name, None
+    return None
 
 
 def _outdone_name(seen: Seen) -> Objection | None:
