@@ -1,6 +1,6 @@
 """The search: from recordings and a declared model to a structure that explains them."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -10,6 +10,7 @@ from diffbot_sim.identification.fitting.calibration import calibrate, simulation
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filtering import filter_behind, unfiltered
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
+from diffbot_sim.identification.fitting.leading import acted_before, lead_of
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.older import Ages, is_taken
@@ -31,7 +32,7 @@ class Found:
     undoubted: as it was before names were doubted; near_rest: by how much a friction near rest of
     another form than declared, which is allowed for, lowers the deviance; time_constant [s]: of
     the filter of their twists that was undone, 0 if none was; undecided: whether twists may be
-    older than their stamps.
+    older than their stamps; lead [s]: by how much forces were taken to act before theirs.
     """
 
     recordings: Recordings
@@ -43,14 +44,29 @@ class Found:
     near_rest: float = 0.0
     time_constant: float = 0.0
     undecided: bool = False
+    lead: float = 0.0
+
+    @property
+    def says_something(self) -> bool:
+        """Whether anything is named or left unexplained."""
+        return bool(self.names) or self.unexplained is not None
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The effects that were found."""
+        return frozenset(self.selection.support)
 
     def timings(self, given: Recordings) -> tuple[Timing, ...]:
         """Return how recordings were taken otherwise than they had been given."""
+        leads = (Timing(run.name, self.lead, 'force') for run in given.all if self.lead > 0.0)
+        return (*self._of_twists(given), *leads)
+
+    def _of_twists(self, given: Recordings) -> Iterator[Timing]:
         if self.time_constant > 0.0:
-            return tuple(Timing(run.name, self.time_constant, 'filter') for run in given.all)
+            return (Timing(run.name, self.time_constant, 'filter') for run in given.all)
         if self.undecided:
-            return tuple(Timing(run.name, half_interval(run), 'undecided') for run in given.all)
-        return tuple(filter(None, map(timing, given.all, self.recordings.all)))
+            return (Timing(run.name, half_interval(run), 'undecided') for run in given.all)
+        return filter(None, map(timing, given.all, self.recordings.all))
 
 
 def search(
@@ -60,7 +76,7 @@ def search(
 
     Raises DataError where the runs are too short or do not move.
     """
-    found = _timed(recordings, declared, kinds, progress)
+    found = _led(_timed(recordings, declared, kinds, progress), declared, kinds, progress)
     if found.unexplained is None:
         return found
     progress('allowing for friction near rest')
@@ -76,8 +92,7 @@ def _timed(
     """Search, and search again where twists may be older than their stamps, or filtered."""
     found = _found(recordings.each(timely), declared, kinds, progress)
     ages = Ages(found.selection.final, found.recordings)
-    told = found.selection.final.space.kinds or found.unexplained
-    for older in ages.likely if told else ():
+    for older in ages.likely if found.says_something else ():
         progress(f'taking {older.what} for means since the sample before')
         other = _found(found.recordings.each(older.taken), declared, kinds, progress)
         if is_taken(older, found.selection.final, other.selection.final):
@@ -92,6 +107,21 @@ def _timed(
         if found.unexplained or not other.unexplained:
             return replace(other, time_constant=time_constant)
     return replace(found, undecided=ages.is_undecided)
+
+
+def _led(
+    found: Found, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
+) -> Found:
+    """Search again where forces act before their stamps, if that leaves less to be told."""
+    lead = lead_of(found.undoubted.final) if found.says_something else 0.0
+    if lead <= 0.0:
+        return found
+    progress('taking forces for older than their stamps')
+    led = found.recordings.each(partial(acted_before, lead=lead))
+    other = _found(led, declared, kinds, progress)
+    if other.unexplained or not (found.unexplained or other.names <= found.names):
+        return found
+    return replace(other, lead=lead, time_constant=found.time_constant, undecided=found.undecided)
 
 
 def _found(

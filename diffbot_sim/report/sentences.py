@@ -34,6 +34,8 @@ TIMINGS = {
     'of {}: it explains them and their noise better than a robot that is late.',
     'undecided': 'the twists may be {} older than their stamps, as means over the past are; this '
     'recording does not tell. Then it is not the robot that is so much late. Record faster.',
+    'force': 'the robot moves before the forces that are told to drive it: they were taken as '
+    '{} older than their stamps.',
 }
 
 BIAS = (

@@ -73,10 +73,10 @@ def as_pose_moves(run: Run) -> Run:
 
 
 def timing(given: Run, taken: Run) -> Timing | None:
-    """Return how a run was taken that had been given; None where it was taken as it is."""
-    if taken is given:
-        return None
+    """Return how a run's twists were taken that had been given; None where as they are."""
     before, after = given.odometry, taken.odometry
+    if after is before:
+        return None
     if after.twist is not before.twist:
         return Timing(given.name, max(0.0, lag_behind_pose(before)), 'pose')
     what: Literal['mean', 'speed'] = 'mean' if all(after.means) else 'speed'
