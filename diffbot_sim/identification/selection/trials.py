@@ -11,6 +11,7 @@ from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, complete
 from diffbot_sim.identification.selection.evidence import Evidence, compare
+from diffbot_sim.identification.selection.feedback import is_of_feedback
 from diffbot_sim.identification.selection.rivals import comes_up
 from diffbot_sim.identification.selection.screening import PROMISING, Score, Screen
 from diffbot_sim.identification.statistics.guards import ELSEWHERE_LEVEL, lasting, may_be_chance
@@ -30,6 +31,7 @@ UNCONFIRMED = 'does not predict held-out data better'
 BEHIND = 'explains far less than another effect'
 OUTDONE = 'resembles what acts, but a free-form force explains more'
 INCREDIBLE = 'fits only with values that no robot has'
+HEARD = 'only while the forces hardly change, as where a controller hears more than was recorded'
 UNSEEN = 'not excited by this drive'
 
 Progress = Callable[[str], None]
@@ -52,7 +54,7 @@ class Trial:
     @property
     def refused(self) -> bool:
         """Whether it was fitted to its end, and the evidence was not beyond doubt."""
-        return self.fit is not None and self.outcome not in (SUPPORTED, OUTDONE)
+        return self.fit is not None and self.outcome not in (SUPPORTED, OUTDONE, HEARD)
 
 
 @dataclass(frozen=True)
@@ -134,6 +136,8 @@ def _completed(
     outcome = judge(evidence, tried)
     if outcome == SUPPORTED and kind.name in fit.incredible:
         outcome = INCREDIBLE
+    elif outcome == SUPPORTED and is_of_feedback(fit, kind.name):
+        outcome = HEARD
     return Trial(kind, fit, evidence, outcome)
 
 
