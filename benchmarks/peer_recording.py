@@ -20,7 +20,7 @@ class Recording:
     duration [s]; rate of the commands and of the odometry, 50 or 100 [Hz]; v_noise [m/s] and
     omega_noise [rad/s]: standard deviations of white odometry noise; roughness: rms force of the
     floor on each wheel [N], with a memory [s]; dead_reckoned: the pose is the integral of the
-    noisy twist, not true.
+    noisy twist, not true; hears_all: who drives hears true speeds, at every beat.
     """
 
     duration: float = 120.0
@@ -31,6 +31,7 @@ class Recording:
     roughness: float = 0.0
     memory: float = 0.3
     dead_reckoned: bool = False
+    hears_all: bool = False
 
 
 def record(plant: Plant, driver: Driver, how: Recording, seed: int, name: str = 'peer') -> Run:
@@ -44,8 +45,8 @@ def record(plant: Plant, driver: Driver, how: Recording, seed: int, name: str = 
     motion, measured = np.empty((beats, 5)), np.zeros(2)
     for k in range(beats):
         motion[k] = _motion(plant, state)
-        if k % odometry == 0:
-            measured = _wheels(plant, motion[k, :2] + noise[k])
+        if how.hears_all or k % odometry == 0:
+            measured = _wheels(plant, motion[k, :2] + noise[k] * (not how.hears_all))
         if k % each == 0:
             force[k // each] = driver(k // each, measured)
         right, left = force[k // each]

@@ -21,6 +21,8 @@ SENSED = ('actuator_lag', 'actuator_delay', 'slope')
 # they creep [m/s].
 AT_REST = ('slope', 'actuator_deadband', 'yaw_friction')
 CREEP = (0.002, 0.005, 0.01)
+# Effects that a controller which hears more may bring about.
+LATE = ('actuator_lag', 'actuator_delay')
 # Effects whose detection is followed over their size, in multiples of a weak one.
 FOLLOWED = ('quadratic_drag', 'actuator_lag', 'wheel_friction_asymmetry', 'payload_change')
 MULTIPLES = ('0.25×', '0.5×', '1×', '2×', '4×', '8×')
@@ -32,7 +34,8 @@ class Case:
 
     removed: the library lacks them; drive: one of MANOEUVRES, or none: random drives take turns;
     sensors: one of SENSORS, or none: twists of the moment, with white noise; creep: how fast
-    wheels do so below static friction [m/s].
+    wheels do so below static friction [m/s]; heard: a controller that hears more than is recorded,
+    on a floor whose memory is short.
     """
 
     family: str
@@ -45,6 +48,7 @@ class Case:
     drive: str = ''
     sensors: str = ''
     creep: float = 0.0
+    heard: bool = False
 
     @property
     def name(self) -> str:
@@ -108,6 +112,13 @@ def _creeping(seed: int) -> Iterator[Case]:
         yield Case('creeping', effects, 'typical', make, floor, turn, creep=creep)
 
 
+def _heard(seed: int) -> Iterator[Case]:
+    """Yield clean robots, and late ones, under a controller that hears more than is recorded."""
+    robots = list(product(_none_or_one(LATE), MAKES, FLOORS))
+    for turn, (effects, make, floor) in enumerate(robots, start=seed * len(robots)):
+        yield Case('heard', effects, 'typical', make, floor, turn, heard=True)
+
+
 FAMILIES: dict[str, Callable[[int], Iterator[Case]]] = {
     'clean': _clean,
     'single': _single,
@@ -118,6 +129,7 @@ FAMILIES: dict[str, Callable[[int], Iterator[Case]]] = {
     'drives': _drives,
     'odometry': _odometry,
     'creeping': _creeping,
+    'heard': _heard,
 }
 
 

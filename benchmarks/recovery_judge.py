@@ -4,7 +4,7 @@ from dataclasses import asdict, replace
 from time import perf_counter
 
 import numpy as np
-from peer_drives import DRIVES
+from peer_drives import DRIVES, closed_loop
 from peer_effects import with_effect
 from peer_manoeuvres import MANOEUVRES
 from peer_plant import Plant
@@ -19,8 +19,10 @@ from diffbot_sim.identification.result import ErrorNorm, Identification
 from diffbot_sim.physics.effects import laws
 from diffbot_sim.records import Run
 
-# What sensors make of a drive is made of odometry at this rate [Hz].
+# What sensors make of a drive is made of odometry at this rate [Hz]; so often a controller hears.
 OFTEN = 100.0
+# The memory of a floor whose pushes change between the samples [s].
+SHORT = 0.05
 
 
 def judge(case: Case) -> Row:
@@ -53,11 +55,15 @@ def recorded(case: Case, plant: Plant) -> Run:
     """Drive a case's robot. Random drives, command rate and pose take turns with the seed."""
     make, seed = MAKES[case.make], case.seed
     drive = MANOEUVRES[case.drive] if case.drive else tuple(DRIVES.values())[seed % 2]
+    if case.heard:
+        drive = closed_loop
     how = Recording(
         rate=(50.0, 100.0)[seed // 2 % 2],
         roughness=make.roughness * (case.floor == 'rough'),
         dead_reckoned=seed % 4 == 3,
     )
+    if case.heard:
+        how = replace(how, rate=OFTEN, memory=SHORT, hears_all=True)
     if case.sensors:
         how = replace(how, odometry=OFTEN, v_noise=0.0, omega_noise=0.0)
     run = record(plant, drive(make, seed, how.duration, how.rate), how, seed, case.name)

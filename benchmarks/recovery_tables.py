@@ -61,6 +61,7 @@ def tables(rows: Sequence[Row]) -> str:
         _section('Other drives', _of(rows, 'drives'), ('drive', 'make', 'floor'), DRIVEN),
         _section('Encoders and gyros', _of(rows, 'odometry'), ('effects', 'floor'), SENSED),
         _section('Wheels that creep', _of(rows, 'creeping'), ('effects', 'floor'), SENSED),
+        _section('Controllers that hear more', _of(rows, 'heard'), ('effects', 'floor'), SENSED),
         _section('Detection over size', _of(rows, 'sizes'), ('effects', 'size', 'floor'), SINGLE),
         coverage(rows),
     ]
