@@ -23,6 +23,8 @@ LATE = ('actuator_delay.time', 'actuator_lag.time_constant')
 LATE_EFFECTS = tuple(name.partition('.')[0] for name in LATE)
 # Longest lag behind the pose [s] that is looked for, and grid points in an interval.
 LONGEST, FINENESS = 0.5, 4
+# What lags by more than this share of an interval is a mean, whichever way the pose came about.
+BEYOND_HALF = 0.75
 # A shorter run [s] does not tell it.
 SHORTEST = 10.0
 # A pose that moves otherwise than the twist says, by more than this share, tells nothing.
@@ -38,8 +40,8 @@ TINY = 1e-9
 def timely(run: Run) -> Run:
     """Return a run whose twist is of the time of its pose.
 
-    A lag of up to an interval is left as it is: poses that are integrated from the twist lead it
-    or lag behind it by half of one. A longer mean, or one to both sides, hides what is fast: the
+    A lag of about half an interval is left as it is: poses that are integrated from the twist lead
+    it or lag behind it by so much. A longer mean, or one to both sides, hides what is fast: the
     twist is taken from the pose's changes, over as many samples as noise and the mean ask for.
     """
     longest = _length_of_mean(run.odometry)
@@ -55,7 +57,7 @@ def timely(run: Run) -> Run:
 def _length_of_mean(odometry: Odometry) -> int:
     """Return over about how many samples to a side the twist is a mean, 0 if not for long."""
     lag, interval = lag_behind_pose(odometry), median_interval(odometry.time)
-    if lag > interval:
+    if lag > BEYOND_HALF * interval:
         return round(lag / interval)
     if odometry.pose is None or odometry.time[-1] - odometry.time[0] < SHORTEST:
         return 0
