@@ -20,7 +20,7 @@ from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import median_interval
 from diffbot_sim.identification.selection.candidates import reduce
 from diffbot_sim.identification.selection.evidence import (
-    delta_bic,
+    delta_bic_beyond_past,
     delta_bic_of_both,
     delta_bic_of_speed,
 )
@@ -66,7 +66,10 @@ class Ages:
         fits = [(o, _timely(fit)) for o, fit in self._taken] if needless else self._again
         least = -INDISTINGUISHABLE if _ways_late(self._final) > 1 else INDISTINGUISHABLE
         told = [(o, fit) for o, fit in fits if needless or o.worth(self._final, fit) > least]
-        return [o for o, _ in sorted(told, key=lambda pair: -delta_bic(self._final, pair[1]))]
+        return [
+            o
+            for o, _ in sorted(told, key=lambda pair: -delta_bic_beyond_past(self._final, pair[1]))
+        ]
 
     @property
     def is_undecided(self) -> bool:

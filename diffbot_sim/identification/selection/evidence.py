@@ -100,17 +100,23 @@ def delta_bic(first: Fit, second: Fit) -> float:
     return fall - _price(first, second, second.whitened.size)
 
 
-def delta_bic_of_speed(first: Fit, second: Fit) -> float:
-    """Return the same for what is told of the speed; turn rates need not be the same data.
+def delta_bic_beyond_past(first: Fit, second: Fit) -> float:
+    """Return the same beyond what past errors tell.
 
-    Both count beyond what past errors tell. A count that one difference of an encoder lacks, the
-    next one has; and where a controller hears that, a robot that is late seems to foresee it.
+    A count that one difference of an encoder lacks, the next one has; and where a controller hears
+    that, a robot that is late seems to foresee it.
     """
+    fall = float(_falls_beyond(first, second).sum())
+    return fall - _price(first, second, second.whitened.size)
+
+
+def delta_bic_of_speed(first: Fit, second: Fit) -> float:
+    """Return that for what is told of the speed; turn rates need not be the same data."""
     return float(_falls_beyond(first, second)[0]) - _price(first, second, len(second.whitened))
 
 
 def delta_bic_of_both(first: Fit, second: Fit) -> float:
-    """Return the same for what is told of speed or turn rate, whichever gains less."""
+    """Return that for what is told of speed or turn rate, whichever gains less."""
     least = float(_falls_beyond(first, second).min())
     return least - _price(first, second, len(second.whitened))
 
