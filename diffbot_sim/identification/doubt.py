@@ -14,6 +14,7 @@ from diffbot_sim.identification.free_forms.bases import again
 from diffbot_sim.identification.free_forms.dependence import Dependence, realised, worth_of
 from diffbot_sim.identification.free_forms.moments import pushed
 from diffbot_sim.identification.free_forms.near_rest import eased
+from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
 from diffbot_sim.identification.free_forms.structure import dependences, describe, find_dependences
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
@@ -153,7 +154,8 @@ def _suspicion(seen: Seen) -> Objection:
     suspected = 0.0 if most is None else _worth_without_luck(most)
     if most is None or suspected < SUSPICIOUS + seen.allowed:
         # Beside a name moments may be its own misses.
-        return '', None if final.space.kinds else pushed(final)
+        some = None if final.space.kinds else pushed(final)
+        return '', some or moves_otherwise(final, seen.held_out)
     nearest = describe(dependences(Screen(final))[0], final)
     words = f'something that {most.kind.name} explains in part, though {_but(most)}, or'
     left = replace(nearest, description=f'{words} {nearest.description}')

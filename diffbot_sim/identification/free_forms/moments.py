@@ -119,7 +119,7 @@ def _described(fit: Fit, moments: list[Moment]) -> Structure:
     said = ', '.join(_said(*felt[m.stretch], m, _whose(fit, m)) for m in sorted(moments))
     surest = moments[0]
     view, response = felt[surest.stretch]
-    knots, force, error = _over_time(view, response, surest.axis)
+    knots, force, error = over_time(view, response, surest.axis)
     what = 'pushes' if len(moments) > 1 else 'a push'
     return Structure(
         description=f'{what} at {said} that no effect of the library accounts for',
@@ -144,7 +144,7 @@ def _whose(fit: Fit, moment: Moment) -> str:
     return f' of {fit.stretches[moment.stretch].run.name}' if len(fit.stretches) > 1 else ''
 
 
-def _over_time(view: View, response: Response, axis: int) -> tuple[Array, Array, Array]:
+def over_time(view: View, response: Response, axis: int) -> tuple[Array, Array, Array]:
     """Return times of a stretch, the force in a window around each, and its standard error."""
     time = view.stretch.time
     knots = np.arange(time[0] + WINDOW, time[-1] - WINDOW, 0.5 * WINDOW)

@@ -1,0 +1,32 @@
+"""Held-out data in which a robot moves otherwise than where it was fitted."""
+
+import numpy as np
+import pytest
+from fits import ROUGH, SMOOTH, acted_otherwise, fitted
+
+from diffbot_sim.control.rehearsal import Surroundings, random_forces
+from diffbot_sim.identification import identify
+from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
+from diffbot_sim.physics import Model
+from diffbot_sim.physics.effects.slope import Slope
+
+FORCES = random_forces(3, 60.0, -9.0, 11.0)
+# A rope that gets caught when the last third of the drive begins.
+HELD_BACK = FORCES.force - 0.6 * (FORCES.time > 43.0)[:, None]
+
+
+@pytest.mark.parametrize('around', [SMOOTH, ROUGH])
+def test_robot_that_stays_the_same_moves_as_before(around: Surroundings) -> None:
+    assert moves_otherwise(*fitted(acted_otherwise(FORCES, FORCES.force, around))) is None
+
+
+def test_force_that_sets_in_after_the_fit_is_noticed_and_measured() -> None:
+    left = moves_otherwise(*fitted(acted_otherwise(FORCES, HELD_BACK)))
+    assert left is not None
+    assert left.axis == 'v'
+    assert np.median(left.force) == pytest.approx(-1.2, abs=0.2)
+
+
+def test_nothing_is_not_said_to_be_missing_where_held_out_data_say_otherwise() -> None:
+    answer = identify([acted_otherwise(FORCES, HELD_BACK)], Model(), kinds=[Slope])
+    assert answer.verdict == 'unexplained'
