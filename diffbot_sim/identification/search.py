@@ -76,7 +76,12 @@ def search(
 
     Raises DataError where the runs are too short or do not move.
     """
-    found = _led(_timed(recordings, declared, kinds, progress), declared, kinds, progress)
+    found = _settled(_timed(recordings, declared, kinds, progress), progress)
+    return _led(found, declared, kinds, progress)
+
+
+def _settled(found: Found, progress: Progress) -> Found:
+    """Allow for friction near rest where something would be unexplained without that."""
     if found.unexplained is None:
         return found
     progress('allowing for friction near rest')
@@ -118,7 +123,7 @@ def _led(
         return found
     progress('taking forces for older than their stamps')
     led = found.recordings.each(partial(acted_before, lead=lead))
-    other = _found(led, declared, kinds, progress)
+    other = _settled(_found(led, declared, kinds, progress), progress)
     if other.unexplained or not (found.unexplained or other.names <= found.names):
         return found
     return replace(other, lead=lead, time_constant=found.time_constant, undecided=found.undecided)
