@@ -19,6 +19,9 @@ from diffbot_sim.identification.statistics.projection import Projection
 from diffbot_sim.identification.statistics.robust import huber, influence
 from diffbot_sim.records import Array
 
+# Errors of counts take back more of the last one than this; by such a share they may weigh more,
+# while they are better foreseen, and be no worse.
+COUNTED, MUCH_LARGER = -0.25, 0.05
 # Blocks that count as independent; each is much longer than any correlation of innovations.
 BLOCKS = 40
 
@@ -122,10 +125,17 @@ def delta_bic_of_both(first: Fit, second: Fit) -> float:
 
 
 def _falls_beyond(first: Fit, second: Fit) -> Array:
-    """Return by how much less the second's errors of v and ω weigh than the first's."""
+    """Return by how much less the second's errors of v and ω weigh than the first's.
+
+    Beyond what their past tells where they are those of counts: each takes back the last one. If
+    they are much larger as they are, they are worse all the same.
+    """
     sigma = np.minimum(first.sigma, second.sigma)
     before, after = (fit.whitened * (fit.sigma / sigma) for fit in (first, second))
-    return falls_beyond_past(before, after)
+    weight, beyond = huber(before).sum(axis=0), falls_beyond_past(before, after)
+    as_they_are = weight - huber(after).sum(axis=0)
+    counted = np.sum(before[1:] * before[:-1], axis=0) < COUNTED * np.sum(before**2, axis=0)
+    return np.where(counted & (as_they_are > -MUCH_LARGER * weight), beyond, as_they_are)
 
 
 def _price(first: Fit, second: Fit, samples: int) -> float:
