@@ -72,7 +72,7 @@ class Found:
 def search(
     recordings: Recordings, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
 ) -> Found:
-    """Search the structures made of these effects, and ask whether it is the twists that are late.
+    """Search the structures made of these effects; ask whether twists or forces are stamped late.
 
     Raises DataError where the runs are too short or do not move.
     """
