@@ -41,12 +41,13 @@ def record(plant: Plant, driver: Driver, how: Recording, seed: int, name: str = 
     push = how.roughness * remembering(random, beats, BEAT / how.memory)
     noise = random.normal(size=(beats, 2)) * [how.v_noise, how.omega_noise]
     each, odometry = round(1.0 / (how.rate * BEAT)), round(1.0 / (how.odometry * BEAT))
+    often, missed = (1, np.zeros_like(noise)) if how.hears_all else (odometry, noise)
     (state, way), force = at_rest(plant), np.zeros((beats // each, 2))
     motion, measured = np.empty((beats, 5)), np.zeros(2)
     for k in range(beats):
         motion[k] = _motion(plant, state)
-        if how.hears_all or k % odometry == 0:
-            measured = _wheels(plant, motion[k, :2] + noise[k] * (not how.hears_all))
+        if k % often == 0:
+            measured = _wheels(plant, motion[k, :2] + missed[k])
         if k % each == 0:
             force[k // each] = driver(k // each, measured)
         right, left = force[k // each]

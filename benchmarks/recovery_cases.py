@@ -98,24 +98,21 @@ def _drives(seed: int) -> Iterator[Case]:
 
 def _odometry(seed: int) -> Iterator[Case]:
     """Yield clean robots, and ones with an effect, each with the sensors whose turn it is."""
-    robots = list(product(_none_or_one(SENSED), MAKES, FLOORS))
-    for turn, (effects, make, floor) in enumerate(robots, start=seed * len(robots) + 1):
-        sensors = tuple(SENSORS)[turn % len(SENSORS)]
-        yield Case('odometry', effects, 'typical', make, floor, turn, sensors=sensors)
+    for turn, (effects, make, floor) in _in_turn(SENSED, seed):
+        sensors = tuple(SENSORS)[(turn + 1) % len(SENSORS)]
+        yield Case('odometry', effects, 'typical', make, floor, turn + 1, sensors=sensors)
 
 
 def _creeping(seed: int) -> Iterator[Case]:
     """Yield clean robots, and ones with an effect, whose wheels creep at a speed in turn."""
-    robots = list(product(_none_or_one(AT_REST), MAKES, FLOORS))
-    for turn, (effects, make, floor) in enumerate(robots, start=seed * len(robots)):
+    for turn, (effects, make, floor) in _in_turn(AT_REST, seed):
         creep = CREEP[(turn // 2 + turn // 6) % len(CREEP)]
         yield Case('creeping', effects, 'typical', make, floor, turn, creep=creep)
 
 
 def _heard(seed: int) -> Iterator[Case]:
     """Yield clean robots, and late ones, under a controller that hears more than is recorded."""
-    robots = list(product(_none_or_one(LATE), MAKES, FLOORS))
-    for turn, (effects, make, floor) in enumerate(robots, start=seed * len(robots)):
+    for turn, (effects, make, floor) in _in_turn(LATE, seed):
         yield Case('heard', effects, 'typical', make, floor, turn, heard=True)
 
 
@@ -139,6 +136,14 @@ def cases(families: Sequence[str], seeds: range, share: float) -> Iterator[Case]
         for case in FAMILIES[family](seed):
             if crc32(case.name.encode()) / 2**32 < share:
                 yield case
+
+
+def _in_turn(
+    names: Iterable[str], seed: int
+) -> Iterator[tuple[int, tuple[tuple[str, ...], str, str]]]:
+    """Number robots of all makes and floors, clean or with one effect, on from the last round."""
+    robots = list(product(_none_or_one(names), MAKES, FLOORS))
+    return enumerate(robots, start=seed * len(robots))
 
 
 def _none_or_one(names: Iterable[str]) -> list[tuple[str, ...]]:

@@ -55,14 +55,13 @@ def recorded(case: Case, plant: Plant) -> Run:
     """Drive a case's robot. Random drives, command rate and pose take turns with the seed."""
     make, seed = MAKES[case.make], case.seed
     drive = MANOEUVRES[case.drive] if case.drive else tuple(DRIVES.values())[seed % 2]
-    if case.heard:
-        drive = closed_loop
     how = Recording(
         rate=(50.0, 100.0)[seed // 2 % 2],
         roughness=make.roughness * (case.floor == 'rough'),
         dead_reckoned=seed % 4 == 3,
     )
     if case.heard:
+        drive = closed_loop
         how = replace(how, rate=OFTEN, memory=SHORT, hears_all=True)
     if case.sensors:
         how = replace(how, odometry=OFTEN, v_noise=0.0, omega_noise=0.0)

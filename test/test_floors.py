@@ -33,7 +33,7 @@ STOREYS: list[set[str]] = [
     {'fitting'},
     {'selection'},
     {'free_forms', 'conclusions'},
-    {'doubt', 'older'},
+    {'doubt', 'older', 'leading'},
     {'search'},
     {'identify'},
 ]

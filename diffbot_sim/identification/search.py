@@ -10,9 +10,9 @@ from diffbot_sim.identification.fitting.calibration import calibrate, simulation
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filtering import filter_behind, unfiltered
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
-from diffbot_sim.identification.fitting.leading import acted_before, lead_of
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.fitting.shaking import shaken
+from diffbot_sim.identification.leading import acted_before, lead_of
 from diffbot_sim.identification.older import Ages, is_taken
 from diffbot_sim.identification.recordings.lateness import half_interval, timely, timing
 from diffbot_sim.identification.recordings.recordings import Recordings

@@ -53,8 +53,8 @@ def _weights(squares: Array, parts: int) -> Array:
 
 
 def _described(fit: Fit, begun: tuple[Stretch, ...], axis: int) -> Structure:
-    following = replace(fit, stretches=begun, gains=FOLLOWING)
-    view, response = views(following, begun)[0], responses(following)[0]
+    following = replace(fit, stretches=begun[:1], gains=FOLLOWING)
+    (view,), (response,) = views(following, following.stretches), responses(following)
     knots, force, error = over_time(view, response, axis)
     strength = float(np.sqrt(np.mean(force**2)))
     kind, unit = FORCES[BODY[axis]]

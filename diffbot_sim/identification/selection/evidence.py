@@ -68,18 +68,22 @@ class Evidence:
 def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
     """Weigh a large fit against a small one nested in it."""
     added = len(large.u) - len(small.u)
-    ratio = fall_of_deviance(small.whitened * (small.sigma / large.sigma), large.whitened)
-    samples = large.whitened.size
+    ratio = likelihood_ratio(small, large)
     gain, chance = held_out_gain(small, large, held_out)
     amounts, shapes = _added(small, large)
     return Evidence(
-        delta_bic=ratio - added * float(np.log(samples)),
+        delta_bic=ratio - _price(small, large, large.whitened.size),
         p_value=float(stats.chi2.sf(ratio, added)),
         p_block=wald(large, amounts, shapes),
         held_out_gain=gain,
         p_held_out=chance,
         p_folds=nan if _adds_law_of_time(small, large) else _folds_chance(large, amounts, shapes),
     )
+
+
+def likelihood_ratio(small: Fit, large: Fit) -> float:
+    """Return by how much the deviance falls from one fit to another, no less than nothing."""
+    return fall_of_deviance(small.whitened * (small.sigma / large.sigma), large.whitened)
 
 
 def _adds_law_of_time(small: Fit, large: Fit) -> bool:
@@ -115,13 +119,17 @@ def delta_bic_beyond_past(first: Fit, second: Fit) -> float:
 
 def delta_bic_of_speed(first: Fit, second: Fit) -> float:
     """Return that for what is told of the speed; turn rates need not be the same data."""
-    return float(_falls_beyond(first, second)[0]) - _price(first, second, len(second.whitened))
+    return float(_delta_bics(first, second)[0])
 
 
 def delta_bic_of_both(first: Fit, second: Fit) -> float:
     """Return that for what is told of speed or turn rate, whichever gains less."""
-    least = float(_falls_beyond(first, second).min())
-    return least - _price(first, second, len(second.whitened))
+    return float(_delta_bics(first, second).min())
+
+
+def _delta_bics(first: Fit, second: Fit) -> Array:
+    """Return that for what is told of v, and of ω, shape (2,)."""
+    return _falls_beyond(first, second) - _price(first, second, len(second.whitened))
 
 
 def _falls_beyond(first: Fit, second: Fit) -> Array:
@@ -166,11 +174,21 @@ def _folds_chance(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> fl
 
     To first order around the fit, all else adapted to the whole; shapes are held.
     """
+    return folds_chance(*beside_others(fit, amounts, shapes))
+
+
+def beside_others(
+    fit: Fit, amounts: Sequence[int], shapes: Sequence[int] = ()
+) -> tuple[Array, Array]:
+    """Return errors as they are without some amounts, (2 n,), and their derivatives, (2 n, q).
+
+    To first order around the fit; of both is taken out what else is free but the shapes.
+    """
     jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
     free = Projection(np.delete(jacobian, [*amounts, *shapes], axis=1))
     columns, errors = free.rest(jacobian[:, amounts]), free.rest(influence(fit.whitened)).ravel()
     departure = (fit.u - fit.space.prior())[amounts]
-    return folds_chance(errors - columns @ departure, columns)
+    return errors - columns @ departure, columns
 
 
 def sandwich(jacobian: Array, errors: Array, known: Array) -> Array:

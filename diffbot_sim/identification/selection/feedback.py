@@ -11,8 +11,7 @@ import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.recordings.lateness import LATE_EFFECTS
-from diffbot_sim.identification.statistics.projection import Projection
-from diffbot_sim.identification.statistics.robust import influence
+from diffbot_sim.identification.selection.evidence import beside_others
 
 # The share of what is known that comes from forces that hardly change. By how many deviations a
 # robot must be later there than elsewhere, and how many elsewhere are beyond doubt all the same.
@@ -27,15 +26,12 @@ def is_of_feedback(fit: Fit, name: str) -> bool:
     """
     if name not in LATE_EFFECTS:
         return False
-    jacobian, (place,) = fit.jacobian.reshape(fit.whitened.size, -1), fit.space.places(name)
-    others = Projection(np.delete(jacobian, place, axis=1))
-    slope = others.rest(jacobian[:, place])
-    errors = others.rest(influence(fit.whitened).ravel())
+    errors, columns = beside_others(fit, fit.space.places(name))
+    slope = columns[:, 0]
     order = np.argsort(np.abs(slope))
     known = np.cumsum(slope[order] ** 2)
     parts = np.split(order, [int(np.searchsorted(known, HARDLY * known[-1]))])
-    late = (fit.u - fit.space.prior())[place]
-    calm, jumping = (late - slope[p] @ errors[p] / (slope[p] @ slope[p]) for p in parts)
+    calm, jumping = (-slope[p] @ errors[p] / (slope[p] @ slope[p]) for p in parts)
     calm_sd, jumping_sd = (1.0 / np.linalg.norm(slope[p]) for p in parts)
     fades = calm - jumping > FADING * np.hypot(calm_sd, jumping_sd)
     return bool(fades and jumping < SURE * jumping_sd)

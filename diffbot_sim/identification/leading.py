@@ -7,21 +7,17 @@ that is late is told as an effect; that it moves ahead of its forces no effect c
 from dataclasses import replace
 from math import log
 
-from diffbot_sim.identification.fitting.fit import Fit, fit_prediction, whitened
-from diffbot_sim.identification.fitting.predictor import MAX_STEP
-from diffbot_sim.identification.recordings.start import restarted
-from diffbot_sim.identification.statistics.memory import fall_of_deviance
+from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.selection.candidates import begun_anew
+from diffbot_sim.identification.selection.evidence import likelihood_ratio
+from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.statistics.minimisation import flatter
-from diffbot_sim.identification.statistics.projection import Projection
-from diffbot_sim.identification.statistics.robust import influence
 from diffbot_sim.records import Run
 
 # The longest lead [s], by how little it is moved to see what that does, and how closely it is
 # looked for.
 LONGEST, NUDGE, CLOSELY = 0.1, 5e-4, 1e-4
 ROUNDS = 5
-# A slope that is as good as none.
-TINY = 1e-12
 # A lead that lowers the BIC by more is no chance.
 CLEAR = 10.0
 
@@ -40,32 +36,23 @@ def lead_of(fit: Fit) -> float:
         lead = min(lead + step, LONGEST)
         if lead <= 0.0:
             return 0.0
-        led = _led(fit, lead)
+        led = begun_anew(_led(fit, lead))
         if abs(step) < CLOSELY:
             break
-    fall = fall_of_deviance(fit.whitened * (fit.sigma / led.sigma), led.whitened)
-    return lead if fall - log(fit.whitened.size) > CLEAR else 0.0
+    worth = likelihood_ratio(fit, led) - log(fit.whitened.size)
+    return lead if worth > CLEAR else 0.0
 
 
 def _led(fit: Fit, lead: float) -> Fit:
-    """Fit a structure again to forces that act so long before their stamps."""
+    """Return a fit as it is on forces that act so long before their stamps."""
     moved = tuple(replace(s, run=acted_before(s.run, lead)) for s in fit.stretches)
-    return fit_prediction(fit.space, restarted(fit.model, moved, MAX_STEP), fit.u, fit.gains)
+    return replace(fit, stretches=moved)
 
 
 def _step(fit: Fit) -> float:
     """Return how much longer the lead is, to first order, beside all that is fitted."""
-    later, earlier = (
-        whitened(
-            [replace(s, run=acted_before(s.run, nudge)) for s in fit.stretches],
-            fit.model,
-            fit.gains,
-            fit.sigma,
-        )
-        for nudge in (-NUDGE, NUDGE)
-    )
+    later, earlier = (_led(fit, nudge).whitened for nudge in (-NUDGE, NUDGE))
     # Where a wheel starts or stops errors jump: that lies on one side and is no slope.
     slope = flatter(earlier - fit.whitened, fit.whitened - later) / NUDGE
-    others = Projection(fit.jacobian.reshape(fit.whitened.size, -1))
-    slope, errors = others.rest(slope.ravel()), influence(fit.whitened).ravel()
-    return -float(slope @ errors) / max(float(slope @ slope), TINY)
+    _, (step,), _ = Screen(fit).explained(slope[..., None])
+    return float(step)
