@@ -8,6 +8,8 @@ from diffbot_sim.records import Array
 HUBER = 3.0
 # The standard deviation of normal errors is this many times their median size.
 NORMAL = 1.4826
+# What is large among errors, as a quantile; what is none beside that, as a share; a least scale.
+LARGE, NOTHING, LEAST = 0.95, 1e-3, 1e-9
 
 
 def huber(errors: Array) -> Array:
@@ -22,7 +24,16 @@ def influence(errors: Array) -> Array:
 
 
 def scale_of(errors: Array) -> Array:
-    """Return robust standard deviations of the columns; never zero."""
-    middle = np.median(np.abs(errors), axis=0) * NORMAL
-    plain = np.sqrt(np.mean(np.clip(errors, -5 * middle - 1e-12, 5 * middle + 1e-12) ** 2, axis=0))
-    return np.maximum(np.where(plain > 0, plain, 1e-9), 1e-9)
+    """Return robust standard deviations of the columns; never zero.
+
+    Of what is an error at all: encoders of a robot that stands make none, and it may stand mostly.
+    """
+    return np.asarray(np.apply_along_axis(_scale, 0, np.abs(errors)))
+
+
+def _scale(size: Array) -> float:
+    told = size[size > NOTHING * np.quantile(size, LARGE)]
+    if not told.size:
+        return LEAST
+    limit = 5.0 * NORMAL * np.median(told)
+    return max(float(np.sqrt(np.mean(np.minimum(told, limit) ** 2))), LEAST)
