@@ -1,8 +1,8 @@
 """Twists that may be older than their stamps: means since the sample before, as encoders give."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
@@ -18,14 +18,20 @@ from diffbot_sim.identification.recordings.lateness import (
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import median_interval
-from diffbot_sim.identification.selection.candidates import reduce
+from diffbot_sim.identification.selection.candidates import approach, complete, reduce
 from diffbot_sim.identification.selection.evidence import (
+    delta_bic,
     delta_bic_beyond_past,
     delta_bic_of_both,
     delta_bic_of_speed,
 )
 from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE
+from diffbot_sim.identification.selection.screening import Screen
+from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Run
+
+# What lowers the BIC by so much more needs no search of its own to be believed.
+FAR = 100.0
 
 
 class Older(NamedTuple):
@@ -71,6 +77,14 @@ class Ages:
             for o, _ in sorted(told, key=lambda pair: -delta_bic_beyond_past(self._final, pair[1]))
         ]
 
+    def beyond_doubt(self, kinds: Sequence[type[Effect]]) -> list[Older]:
+        """What is the likeliest to be older, if that explains far more than a late robot does."""
+        return [
+            older
+            for older in self.likely[:1]
+            if is_beyond_doubt(older, dict(self._again)[older], self._recordings, kinds)
+        ]
+
     @property
     def is_undecided(self) -> bool:
         """Whether older twists would explain all as well by a robot that is less late."""
@@ -109,6 +123,27 @@ def is_taken(older: Older, first: Fit, second: Fit) -> bool:
     """
     worth, simpler = older.worth(first, second), _ways_late(second) < _ways_late(first)
     return worth > INDISTINGUISHABLE or (worth > -INDISTINGUISHABLE and simpler)
+
+
+def is_beyond_doubt(
+    older: Older, final: Fit, recordings: Recordings, kinds: Sequence[type[Effect]]
+) -> bool:
+    """Say whether a fit that takes twists as older is far better than as they are stamped.
+
+    Then the same structure is held against it, of a robot that is late besides.
+    """
+    return older.worth(_late_as_stamped(final, recordings, kinds), final) > FAR
+
+
+def _late_as_stamped(final: Fit, recordings: Recordings, kinds: Sequence[type[Effect]]) -> Fit:
+    """Fit a structure to twists as they are stamped, and a robot that is late besides."""
+    taken = _on(final, recordings)
+    fit = fit_prediction(taken.space, taken.stretches, taken.u, taken.gains)
+    late = [k for k in kinds if k.name in LATE_EFFECTS and k not in fit.space.kinds]
+    screen = Screen(fit)
+    scores = [(kind, screen.score(kind)) for kind in late]
+    fits = [complete(approach(screen, kind, score)) for kind, score in scores if score.starts]
+    return max(fits, key=partial(delta_bic, fit), default=fit)
 
 
 def _ways_late(fit: Fit) -> int:

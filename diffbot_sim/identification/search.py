@@ -13,7 +13,7 @@ from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_predict
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.leading import acted_before, lead_of
-from diffbot_sim.identification.older import Ages, is_taken
+from diffbot_sim.identification.older import Ages, Older, is_beyond_doubt, is_taken
 from diffbot_sim.identification.recordings.lateness import half_interval, timely, timing
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
@@ -23,6 +23,16 @@ from diffbot_sim.identification.selection.stepwise import Selection, select
 from diffbot_sim.identification.selection.trials import Progress
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.model import Model
+
+
+@dataclass(frozen=True)
+class Begun:
+    """A declared model recalibrated on recordings, and fitted with the noise model."""
+
+    recordings: Recordings
+    held_out: tuple[Stretch, ...]
+    recalibrated: Fit
+    base: Fit
 
 
 @dataclass(frozen=True)
@@ -94,24 +104,46 @@ def _settled(found: Found, progress: Progress) -> Found:
 def _timed(
     recordings: Recordings, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
 ) -> Found:
-    """Search, and search again where twists may be older than their stamps, or filtered."""
-    found = _found(recordings.each(timely), declared, kinds, progress)
+    """Search, and search again where twists may be older than their stamps, or filtered.
+
+    Where they are older beyond doubt already for the declared model, that is searched first: most
+    often nothing else needs to be.
+    """
+    begun = _begun(recordings.each(timely), declared, progress)
+    known = dict[Older, Found]()
+
+    def taken(older: Older) -> Found:
+        if older not in known:
+            progress(f'taking {older.what} for means since the sample before')
+            known[older] = _search(begun.recordings.each(older.taken), declared, kinds, progress)
+        return known[older]
+
+    for older in Ages(begun.base, begun.recordings).beyond_doubt(kinds):
+        final = taken(older).selection.final
+        if is_beyond_doubt(older, final, begun.recordings, kinds):
+            return taken(older)
+    found = _found(begun, kinds, progress)
     ages = Ages(found.selection.final, found.recordings)
     for older in ages.likely if found.says_something else ():
-        progress(f'taking {older.what} for means since the sample before')
-        other = _found(found.recordings.each(older.taken), declared, kinds, progress)
-        if is_taken(older, found.selection.final, other.selection.final):
-            return other
-    # What is left of a filter may be held against the names that stand for it.
+        if is_taken(older, found.selection.final, taken(older).selection.final):
+            return taken(older)
+    return replace(_unfiltered(found, declared, kinds, progress), undecided=ages.is_undecided)
+
+
+def _unfiltered(
+    found: Found, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
+) -> Found:
+    """Search again where what is left of a filter may be held against the names found."""
     time_constant = filter_behind(found.undoubted.final)
-    if time_constant > 0.0:
-        progress('undoing a filter of the twists')
-        undone = found.recordings.each(partial(unfiltered, time_constant=time_constant))
-        other = _found(undone, declared, kinds, progress)
-        # What is undone must not bring about what was not there.
-        if found.unexplained or not other.unexplained:
-            return replace(other, time_constant=time_constant)
-    return replace(found, undecided=ages.is_undecided)
+    if time_constant <= 0.0:
+        return found
+    progress('undoing a filter of the twists')
+    undone = found.recordings.each(partial(unfiltered, time_constant=time_constant))
+    other = _search(undone, declared, kinds, progress)
+    # What is undone must not bring about what was not there.
+    if other.unexplained and not found.unexplained:
+        return found
+    return replace(other, time_constant=time_constant)
 
 
 def _led(
@@ -123,16 +155,21 @@ def _led(
         return found
     progress('taking forces for older than their stamps')
     led = found.recordings.each(partial(acted_before, lead=lead))
-    other = _settled(_found(led, declared, kinds, progress), progress)
+    other = _settled(_search(led, declared, kinds, progress), progress)
     if other.unexplained or not (found.unexplained or other.names <= found.names):
         return found
     return replace(other, lead=lead, time_constant=found.time_constant, undecided=found.undecided)
 
 
-def _found(
+def _search(
     recordings: Recordings, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
 ) -> Found:
-    """Recalibrate, search, and doubt what was found."""
+    """Search in recordings that are taken as they are."""
+    return _found(_begun(recordings, declared, progress), kinds, progress)
+
+
+def _begun(recordings: Recordings, declared: Model, progress: Progress) -> Begun:
+    """Recalibrate the declared model, and fit the noise model to it."""
     fitted, held_out = recordings.divided
     _check(fitted)
     progress('calibrating the declared model')
@@ -144,10 +181,15 @@ def _found(
     # One-step errors have fewer local minima: where they lead is one more start.
     again = fit_simulation(base.space, fitted, base.u)
     recalibrated = min(recalibrated, again, key=simulation_error)
-    selection = select(base, kinds, held_out, progress)
+    return Begun(recordings, held_out, recalibrated, base)
+
+
+def _found(begun: Begun, kinds: Sequence[type[Effect]], progress: Progress) -> Found:
+    """Find the structure, and doubt what was found."""
+    selection = select(begun.base, kinds, begun.held_out, progress)
     progress('looking for structure that is left')
-    doubted = doubt(selection, held_out)
-    return Found(recordings, held_out, recalibrated, selection, *doubted)
+    doubted = doubt(selection, begun.held_out)
+    return Found(begun.recordings, begun.held_out, begun.recalibrated, selection, *doubted)
 
 
 def _check(stretches: Sequence[Stretch]) -> None:
