@@ -4,16 +4,21 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from fits import fitted
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
+from diffbot_sim.identification.older import Ages
 from diffbot_sim.identification.recordings.lateness import lag_behind_pose, timely, timing
+from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
+from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 from diffbot_sim.records import Odometry, Run
 
 TICK = 1.5e-4  # [m] that a wheel rolls for each count
 HALF = Model().robot.half_separation
+LATENESS = (ActuatorDelay, ActuatorLag)
 
 
 def driven(model: Model, seed: int = 2) -> Run:
@@ -102,6 +107,22 @@ def test_encoders_beside_a_gyro_do_not_make_a_robot_late() -> None:
     answer = identify([replace(run, odometry=replace(seen, twist=twist))], Model())
     assert answer.verdict == 'nothing_missing'
     assert [(it.taken, it.lateness) for it in answer.timings] == [('speed', pytest.approx(0.01))]
+
+
+def test_means_are_beyond_doubt_before_anything_is_searched() -> None:
+    seen = (run := driven(Model())).odometry
+    seldom = Odometry(seen.time[::5], seen.twist[::5], seen.pose[::5])
+    run = counted(replace(run, odometry=seldom), 1)
+    base, _ = fitted(run)
+    (older,) = Ages(base, Recordings((run,), ())).beyond_doubt(LATENESS)
+    assert older.what == 'twists'
+
+
+def test_late_robot_does_not_make_means_beyond_doubt() -> None:
+    late = driven(Model(effects=(ActuatorDelay(0.012),)))
+    run = replace(late, odometry=replace(late.odometry, pose=None))
+    base, _ = fitted(run)
+    assert not Ages(base, Recordings((run,), ())).beyond_doubt(LATENESS)
 
 
 def test_true_pose_lets_a_delay_within_an_interval_be_named() -> None:
