@@ -1,5 +1,6 @@
 """Odometry that is older than its stamps: told by its pose, or by what it makes of a robot."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -99,12 +100,30 @@ def test_differences_of_encoders_do_not_make_a_robot_late(with_pose: bool) -> No
     assert [it.lateness for it in answer.timings] == pytest.approx([0.01])
 
 
-def test_encoders_beside_a_gyro_do_not_make_a_robot_late() -> None:
-    run = driven(Model())
+def beside_a_gyro(run: Run) -> Run:
+    """Return what encoders tell of a run's speed and way, and a gyro of its turn rate."""
     seen = counted(run, 1).odometry
     at_once = np.isin(run.odometry.time, seen.time)
     twist = np.column_stack([seen.twist[:, 0], run.odometry.twist[at_once, 1]])
-    answer = identify([replace(run, odometry=replace(seen, twist=twist))], Model())
+    return replace(run, odometry=replace(seen, twist=twist))
+
+
+def headed_by_its_turn_rate(run: Run) -> Run:
+    """Return a run whose poses have the heading that its turn rates sum up to."""
+    seen = run.odometry
+    mean, step = 0.5 * (seen.twist[1:, 1] + seen.twist[:-1, 1]), np.diff(seen.time)
+    heading = seen.pose[0, 2] + np.concatenate([[0.0], np.cumsum(mean * step)])
+    way, middle = seen.twist[1:, 0] * step, 0.5 * (heading[1:] + heading[:-1])
+    moved = way[:, None] * np.column_stack([np.cos(middle), np.sin(middle)])
+    where = seen.pose[0, :2] + np.concatenate([np.zeros((1, 2)), np.cumsum(moved, axis=0)])
+    return replace(run, odometry=replace(seen, pose=np.column_stack([where, heading])))
+
+
+@pytest.mark.parametrize(
+    'known', [beside_a_gyro, lambda r: headed_by_its_turn_rate(beside_a_gyro(r))]
+)
+def test_encoders_beside_a_gyro_do_not_make_a_robot_late(known: Callable[[Run], Run]) -> None:
+    answer = identify([known(driven(Model()))], Model())
     assert answer.verdict == 'nothing_missing'
     assert [(it.taken, it.lateness) for it in answer.timings] == [('speed', pytest.approx(0.01))]
 

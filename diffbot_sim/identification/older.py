@@ -10,6 +10,9 @@ from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.lateness import (
     LATE,
     LATE_EFFECTS,
+    SPEED,
+    TWIST,
+    Components,
     lateness_of,
     of_interval_before,
     pose_allows_lag,
@@ -37,18 +40,20 @@ FAR = 100.0
 class Older(NamedTuple):
     """What of the twists may be older than its stamps.
 
-    taken: how a run is taken then; worth: how much lower the BIC of a second fit is then than that
-    of a first, for what may be older.
+    of: its components; taken: how a run is taken then; worth: how much lower the BIC of a second
+    fit is then than that of a first, for what may be older.
     """
 
     what: str
+    of: Components
     taken: Callable[[Run], Run]
     worth: Callable[[Fit, Fit], float]
 
 
 OLDER = (
-    Older('twists', of_interval_before, delta_bic_of_both),
-    Older('speeds', speed_of_interval_before, delta_bic_of_speed),
+    Older('twists', TWIST, of_interval_before, delta_bic_of_both),
+    # A gyro is never late, and a heading that was made with it says nothing of the speed.
+    Older('speeds', SPEED, speed_of_interval_before, delta_bic_of_speed),
 )
 
 
@@ -65,8 +70,6 @@ class Ages:
         So it may where the very structure that was found fits better then; and where it may make
         needless that the robot is late by less than an interval, or in two ways at once.
         """
-        if not self._allowed:
-            return []
         interval = min(median_interval(run.odometry.time) for run in self._recordings.learned)
         needless = 0.0 < _lateness(self._final) < interval
         fits = [(o, _timely(fit)) for o, fit in self._taken] if needless else self._again
@@ -89,23 +92,19 @@ class Ages:
     def is_undecided(self) -> bool:
         """Whether older twists would explain all as well by a robot that is less late."""
         late = _lateness(self._final)
-        return (
-            late > 0.0
-            and self._allowed
-            and any(
-                o.worth(self._final, fit) > -INDISTINGUISHABLE and _lateness(fit) < late
-                for o, fit in self._again
-            )
+        return late > 0.0 and any(
+            o.worth(self._final, fit) > -INDISTINGUISHABLE and _lateness(fit) < late
+            for o, fit in self._again
         )
 
     @cached_property
-    def _allowed(self) -> bool:
-        return all(map(pose_allows_lag, self._recordings.learned))
-
-    @property
     def _taken(self) -> list[tuple[Older, Fit]]:
-        """The structure as it was found, on twists that are taken as older."""
-        return [(older, _on(self._final, self._recordings.each(older.taken))) for older in OLDER]
+        """The structure as it was found, on twists that are taken as older, if poses allow it."""
+        return [
+            (older, _on(self._final, self._recordings.each(older.taken)))
+            for older in OLDER
+            if all(pose_allows_lag(run, older.of) for run in self._recordings.learned)
+        ]
 
     @cached_property
     def _again(self) -> list[tuple[Older, Fit]]:

@@ -36,6 +36,11 @@ CLEAR = 0.1
 # A speed [m/s, rad/s] that is as good as none.
 TINY = 1e-9
 
+# The components of a twist, and those of a path beside them, that are looked at.
+Components = tuple[int, ...]
+TWIST: Components = (0, 1)
+SPEED: Components = (0,)
+
 
 def timely(run: Run) -> Run:
     """Return a run whose twist is of the time of its pose.
@@ -100,12 +105,12 @@ def speed_of_interval_before(run: Run) -> Run:
     return replace(run, odometry=replace(run.odometry, means=(True, False)))
 
 
-def pose_allows_lag(run: Run) -> bool:
+def pose_allows_lag(run: Run, of: Components) -> bool:
     """Say whether a twist may be late: a pose that was not integrated from it would tell."""
     seen = run.odometry
     if all(seen.means):
         return False
-    return seen.pose is None or lag_behind_pose(seen) > 0.25 * median_interval(seen.time)
+    return seen.pose is None or lag_behind_pose(seen, of) > 0.25 * median_interval(seen.time)
 
 
 def lateness_of(values: Mapping[str, float]) -> float:
@@ -113,12 +118,15 @@ def lateness_of(values: Mapping[str, float]) -> float:
     return sum(values.get(name, 0.0) for name in LATE)
 
 
-def lag_behind_pose(odometry: Odometry) -> float:
-    """Return by how much the twist lags the change of the pose [s]; 0 where that is not sure."""
+def lag_behind_pose(odometry: Odometry, of: Components = TWIST) -> float:
+    """Return by how much a twist, or a part of it, lags the change of the pose [s].
+
+    0 where that is not sure.
+    """
     if odometry.pose is None or odometry.time[-1] - odometry.time[0] < SHORTEST:
         return 0.0
     step = median_interval(odometry.time) / FINENESS
-    misfit = partial(_misfit, odometry, path_of(odometry.pose))
+    misfit = partial(_misfit, odometry, path_of(odometry.pose), of)
     lags = np.arange(-FINENESS, LONGEST / step) * step
     best = float(lags[int(np.argmin([misfit(lag).cost for lag in lags]))])
     found = minimize_scalar(
@@ -130,19 +138,19 @@ def lag_behind_pose(odometry: Odometry) -> float:
 
 
 class _Misfit(NamedTuple):
-    """How a twist differs from the change of a pose: -2 log-likelihood; share of the twist."""
+    """How twists differ from the changes of a pose: -2 log-likelihood; share of the twists."""
 
     cost: float
     share: float
 
 
-def _misfit(odometry: Odometry, path: Array, lag: float) -> _Misfit:
+def _misfit(odometry: Odometry, path: Array, of: Components, lag: float) -> _Misfit:
     """Hold the twist against the mean change of way and heading about a moment before."""
     time, interval = odometry.time, median_interval(odometry.time)
     inner = (time > time[0] + LONGEST + interval) & (time < time[-1] - 2.0 * interval)
-    at, twist = time[inner] - lag, odometry.twist[inner]
+    at, twist = time[inner] - lag, odometry.twist[inner][:, of]
     after, before = (
-        np.column_stack([np.interp(at + side, time, column) for column in path.T])
+        np.column_stack([np.interp(at + side, time, column) for column in path[:, of].T])
         for side in (interval, -interval)
     )
     errors = np.mean((twist - (after - before) / (2.0 * interval)) ** 2, axis=0) + TINY**2
