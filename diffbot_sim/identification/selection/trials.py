@@ -20,8 +20,9 @@ from diffbot_sim.physics.effects import Effect
 # What promises less than this share of the best to first order is approached, and what explains
 # less than that one after a few steps is fitted to its end, only where nothing better enters.
 WORTH_APPROACHING, WORTH_COMPLETING = 0.1, 0.4
-# What explains less than this share of its price after a few steps never comes to be worth it: of
-# the effects that were named in the end all had explained a quarter of what they came to.
+# What explains less than this share of its price after a few steps never comes to be worth it, as
+# long as it promised less than that price to first order: where a noise model follows what is
+# missing, a few steps lead nowhere at first.
 HOPEFUL = 0.2
 
 SUPPORTED = 'supported'
@@ -128,8 +129,8 @@ def _approached(screen: Screen, kind: type[Effect], score: Score, progress: Prog
 def _completed(
     screen: Screen, approached: _Approach, held_out: Sequence[Stretch], tried: int
 ) -> Trial:
-    kind, fall = approached.kind, approached.fall
-    if fall < HOPEFUL * _price(screen, kind):
+    kind, fall, price = approached.kind, approached.fall, _price(screen, approached.kind)
+    if fall < HOPEFUL * price and approached.score.ratio < price:
         return _not_fitted(screen, kind, fall, CHANCE)
     fit = complete(approached.near)
     evidence = compare(screen.fit, fit, held_out).of_best(approached.score.shapes)
