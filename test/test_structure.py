@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from bristles import driven_on_bristles
 from fits import ROUGH, SMOOTH, acted_otherwise, fitted
 from peer_drives import DRIVES
 from peer_recording import Recording, record
@@ -59,6 +60,14 @@ def test_wheels_that_creep_below_static_friction_leave_nothing_to_be_told() -> N
     fit, held_out = fitted(run, declared)
     assert find_dependences(Screen(fit), held_out) != []
     result = identify([run], declared, kinds=[])
+    assert result.verdict == 'nothing_missing'
+    assert result.near_rest > SUSPICIOUS
+
+
+def test_wheels_that_yield_like_bristles_leave_nothing_to_be_told() -> None:
+    run = driven_on_bristles(Model(), random_forces(3, 60.0, -9.0, 11.0), 3)
+    assert left_by(run) != []
+    result = identify([run], Model(), kinds=[])
     assert result.verdict == 'nothing_missing'
     assert result.near_rest > SUSPICIOUS
 

@@ -192,6 +192,29 @@ class Near(Odd):
 
 
 @dataclass(frozen=True)
+class Fading(Piecewise):
+    """Piecewise linear with given knots, nothing at the last of them and beyond.
+
+    sets: of knots, each tried on its own.
+    """
+
+    sets: tuple[tuple[float, ...], ...] = ()
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return the sets of knots, whatever was seen."""
+        del views
+        return [np.array(knots) for knots in self.sets]
+
+    def columns(self, view: View, knots: Array) -> Array:
+        """Evaluate hats along a stretch, but for the last one."""
+        return super().columns(view, knots)[:, :-1]
+
+    def curve(self, knots: Array) -> tuple[Array, Array]:
+        """Return points of the variable and all functions there."""
+        return knots, np.eye(len(knots))[:, :-1]
+
+
+@dataclass(frozen=True)
 class Periodic:
     """Waves in an angle, in proportion to weights: of the heading, a wheel's turn, time.
 

@@ -24,6 +24,7 @@ from diffbot_sim.identification.free_forms.forms import (
     GROWTH_KNOTS,
     Changes,
     Constant,
+    Fading,
     Growth,
     Near,
     Odd,
@@ -51,7 +52,8 @@ from diffbot_sim.records import Array
 # Rates that differ by a line width, among which the strongest were chosen; a generous count.
 LOOKED_AT = 1000
 # Speeds below which contacts creep or bend, and at which laws of Stribeck friction differ [m/s].
-NEAR_REST = ((0.0,), (0.0, 0.005, 0.02, 0.08))
+CREEPING = (0.0, 0.005, 0.02, 0.08)
+NEAR_REST = ((0.0,), CREEPING)
 Form = Constant | Piecewise | Growth | Spans | TwoSided | Odd | Periodic | Past | Swinging
 BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
 
@@ -182,6 +184,11 @@ VARIABLES = {
         Near(lambda view: view.wheel_speed, sets=NEAR_REST),
         ('wheels',),
     ),
+    'yielding': Variable(
+        "each wheel's speed near rest, in proportion to the commanded force",
+        Fading(_sizes, _share_of_force, sets=(CREEPING,)),
+        ('wheels',),
+    ),
     'rolling_one_way': Variable(
         "each wheel's speed (pushing the same way forward and backward)",
         Piecewise(_sizes, _rolls),
@@ -293,5 +300,5 @@ VARIABLES = {
     ),
 }
 # What is allowed for before anything is told, and not told itself; all the others are.
-ALLOWED_FOR = ('near_rest',)
+ALLOWED_FOR = ('near_rest', 'yielding')
 TOLD = tuple(name for name in VARIABLES if name not in ALLOWED_FOR)
