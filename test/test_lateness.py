@@ -128,6 +128,16 @@ def test_encoders_beside_a_gyro_do_not_make_a_robot_late(known: Callable[[Run], 
     assert [(it.taken, it.lateness) for it in answer.timings] == [('speed', pytest.approx(0.01))]
 
 
+def test_lost_messages_do_not_hide_that_encoders_tell_means() -> None:
+    run = counted(driven(Model()), 1)
+    seen = run.odometry
+    kept = np.random.default_rng(1).random(len(seen.time)) > 0.02
+    lossy = Odometry(seen.time[kept], seen.twist[kept], seen.pose[kept])
+    answer = identify([replace(run, odometry=lossy)], Model(), kinds=LATENESS)
+    assert answer.verdict == 'nothing_missing'
+    assert [it.taken for it in answer.timings] == ['mean']
+
+
 def test_means_are_beyond_doubt_before_anything_is_searched() -> None:
     seen = (run := driven(Model())).odometry
     seldom = Odometry(seen.time[::5], seen.twist[::5], seen.pose[::5])

@@ -20,6 +20,8 @@ FITTED_SHARE = 0.7
 # What a start is estimated from, and what is left out of fits after it [s].
 START_WINDOW, SETTLING = 0.3, 0.5
 FEWEST_SAMPLES = 50
+# What comes later than this many intervals, which nine in ten keep, follows a loss.
+LATEST = 1.5
 # Samples that tell whether a stretch begins at rest.
 FEW = 5
 
@@ -168,8 +170,14 @@ def _stretch(run: Run, begin: float, end: float) -> Stretch:
         travelled=float(travelled),
         turned=float(turned),
     )
-    used = (time > time[0] + SETTLING).astype(float)
+    used = ((time > time[0] + SETTLING) & _in_time(time)).astype(float)
     return Stretch(run, time, twist, np.ascontiguousarray(heading), pose, start, used)
+
+
+def _in_time(time: Array) -> Array:
+    """Say of each sample whether none was lost before it, so that means are over an interval."""
+    since = np.diff(time, prepend=time[0])
+    return np.asarray(since <= LATEST * np.quantile(since[1:], 0.9))
 
 
 def _intercept(time: Array, twist: Array) -> tuple[Array, float]:
