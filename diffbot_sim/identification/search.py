@@ -123,9 +123,11 @@ def _timed(
         if is_beyond_doubt(older, final, begun.recordings, kinds):
             return taken(older)
     found = _found(begun, kinds, progress)
-    ages = Ages(found.selection.final, found.recordings)
+    # Doubt may have withdrawn a name for what late twists left beside it.
+    first = found.undoubted.final
+    ages = Ages(first, found.recordings)
     for older in ages.likely if found.says_something else ():
-        if is_taken(older, found.selection.final, taken(older).selection.final):
+        if is_taken(older, first, taken(older).undoubted.final):
             return taken(older)
     return replace(_unfiltered(found, declared, kinds, progress), undecided=ages.is_undecided)
 
