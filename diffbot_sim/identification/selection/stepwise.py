@@ -9,7 +9,7 @@ from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, begun_anew, reduce
 from diffbot_sim.identification.selection.evidence import Evidence, compare
-from diffbot_sim.identification.selection.rivals import comes_up
+from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE, comes_up
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.trials import OUTDONE, Progress, Trial, try_all
 from diffbot_sim.identification.statistics.guards import may_be_chance
@@ -86,7 +86,8 @@ def _prune(
     """Take out, one by one, effects that later ones have made needless.
 
     path: the fits of the forward search. Each is asked once more from where the larger one led:
-    an effect must not live off a poor end of the fit that lacks it.
+    an effect must not live off a poor end of the fit that lacks it, nor may what lacks it explain
+    the data as well.
     """
     fit = path[-1]
     while True:
@@ -100,7 +101,8 @@ def _prune(
         needless = [
             name
             for name, evidence in support.items()
-            if may_be_chance(evidence.p_value, evidence.delta_bic, tried) or name in fit.incredible
+            if may_be_chance(evidence.p_value, evidence.delta_bic - INDISTINGUISHABLE, tried)
+            or name in fit.incredible
         ]
         if not needless:
             return fit, smaller, support
