@@ -177,23 +177,8 @@ class Odd:
 
 
 @dataclass(frozen=True)
-class Near(Odd):
-    """The same with given knots, beyond the last of which it is constant.
-
-    sets: of sizes, each tried on its own.
-    """
-
-    sets: tuple[tuple[float, ...], ...] = ()
-
-    def grids(self, views: Sequence[View]) -> list[Array]:
-        """Return the sets of knots, whatever was seen."""
-        del views
-        return [np.array(knots) for knots in self.sets]
-
-
-@dataclass(frozen=True)
-class Fading(Piecewise):
-    """Piecewise linear with given knots, nothing at the last of them and beyond.
+class _Given:
+    """Knots that are given, whatever was seen.
 
     sets: of knots, each tried on its own.
     """
@@ -201,9 +186,19 @@ class Fading(Piecewise):
     sets: tuple[tuple[float, ...], ...] = ()
 
     def grids(self, views: Sequence[View]) -> list[Array]:
-        """Return the sets of knots, whatever was seen."""
+        """Return the sets of knots."""
         del views
         return [np.array(knots) for knots in self.sets]
+
+
+@dataclass(frozen=True)
+class Near(_Given, Odd):
+    """Alike on both sides of zero, with given knots, beyond the last of which it is constant."""
+
+
+@dataclass(frozen=True)
+class Fading(_Given, Piecewise):
+    """Piecewise linear with given knots, nothing at the last of them and beyond."""
 
     def columns(self, view: View, knots: Array) -> Array:
         """Evaluate hats along a stretch, but for the last one."""
