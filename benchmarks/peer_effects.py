@@ -202,6 +202,19 @@ def _swinging_load(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'mass': (1.0 - share) * make.plant.mass, 'swing_mass': share * make.plant.mass, **rate}
 
 
+def _veering_wind(make: Make, size: float, c: Chance) -> dict[str, float]:
+    turn = c.sign * 2.0 * np.pi * (0.5 + c.share) / DURATION
+    return {'wind': 0.15 * size * make.push, 'wind_angle': c.angle, 'wind_turn': turn}
+
+
+def _ground_waves(make: Make, size: float, c: Chance) -> dict[str, float]:
+    return {'wave': 0.03 * size * c.sign, 'wave_length': 1.0 + 2.0 * c.share}
+
+
+def _tether(make: Make, size: float, c: Chance) -> dict[str, float]:
+    return {'tether': 0.1 * size * make.push, 'tether_slack': 0.5 + c.share}
+
+
 EFFECTS: dict[str, Law] = {
     'quadratic_drag': _quadratic_drag,
     'slope': _slope,
@@ -238,6 +251,9 @@ FOREIGN: dict[str, Law] = {
     'tight_spot': _tight_spot,
     'caster': _caster,
     'swinging_load': _swinging_load,
+    'veering_wind': _veering_wind,
+    'ground_waves': _ground_waves,
+    'tether': _tether,
 }
 
 

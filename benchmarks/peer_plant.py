@@ -123,3 +123,13 @@ class Plant(NamedTuple):
     swing_mass: float = 0.0
     swing_rate: float = 0.0
     swing_damping: float = 0.0
+    # Wind [N] whose direction turns, from an angle [rad] on, at a rate [rad/s].
+    wind: float = 0.0
+    wind_angle: float = 0.0
+    wind_turn: float = 0.0
+    # Ground in waves along x: how steep at most [rad], and how long [m].
+    wave: float = 0.0
+    wave_length: float = 1.0
+    # A tether that pulls back [N/m] beyond a length [m].
+    tether: float = 0.0
+    tether_slack: float = 0.0

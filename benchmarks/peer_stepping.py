@@ -12,6 +12,7 @@ from numba import njit
 from peer_attached import caster, swinging
 from peer_forces import acting, body_force, body_torque, followed, traction, wheel_friction
 from peer_plant import Plant
+from peer_surroundings import surroundings
 
 from diffbot_sim.records import Array
 
@@ -61,7 +62,9 @@ def _roll(p: Plant, s: Array, time: float, force_r: float, force_l: float) -> No
     inertia = p.inertia + loaded * p.load_inertia + mass * p.ahead**2
     trailing, turning, swivelling = caster(p, s[CASTER], v, omega)
     swung, back = swinging(p, s[SWUNG], s[SWINGING])
-    force = body_force(p, time, mass, v, omega, s[YAW]) + force_r + force_l + trailing + swung
+    outside = surroundings(p, time, mass, (s[X], s[Y]), s[YAW])
+    force = body_force(p, time, mass, v, omega, s[YAW]) + outside
+    force += force_r + force_l + trailing + swung
     along = force * STEP / mass
     torque = body_torque(p, mass, v, omega, s[YAW]) + p.half * (force_r - force_l) + turning
     around = p.half * torque * STEP / inertia

@@ -44,6 +44,23 @@ def test_centre_of_gravity_ahead_trades_energy_between_way_and_turn():
     np.testing.assert_allclose(energy, energy[0], rtol=1e-3)
 
 
+def test_tether_and_waves_of_the_ground_keep_energy():
+    run = driven(
+        BARE._replace(tether=6.0, tether_slack=0.1, wave=0.02, wave_length=0.5), 1.0, 1.0, 1.0
+    )
+    v, x = run.odometry.twist[60:, 0], run.odometry.pose[60:, 0]
+    height = 0.02 * 0.5 / (2.0 * np.pi) * (1.0 - np.cos(2.0 * np.pi * x / 0.5))
+    energy = 5.0 * v**2 + 3.0 * np.maximum(np.abs(x) - 0.1, 0.0) ** 2 + 98.1 * height
+    assert np.ptp(x) > 0.1
+    np.testing.assert_allclose(energy, energy[0], rtol=2e-3)
+
+
+def test_wind_that_turns_full_circle_leaves_a_free_robot_as_fast_as_before():
+    run = driven(BARE._replace(wind=2.0, wind_turn=np.pi), 0.0, 0.0)
+    assert run.odometry.twist[25, 0] == pytest.approx(0.2 / np.pi, abs=1e-3)
+    assert run.odometry.twist[100, 0] == pytest.approx(0.0, abs=1e-3)
+
+
 def test_force_below_static_friction_moves_nothing_at_all():
     plant = MAKES['medium'].plant._replace(yaw_dry=0.1, rise_x=0.001)
     run = driven(plant, 2.2, -2.2)
