@@ -1,10 +1,18 @@
-"""A force that belongs to places, as on a hilly floor: no effect has it, a free form sees it."""
+"""A force that belongs to the world, of hills or wind: no effect has it, a free form sees it."""
 
 from dataclasses import dataclass
 from math import cos, sin
 
+from fits import fitted
+from peer_drives import DRIVES
+from peer_recording import Recording, record
+from peer_robots import MAKES, exact
+
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
+from diffbot_sim.identification.free_forms.dependence import Dependence
+from diffbot_sim.identification.free_forms.structure import find_dependences
+from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.parameters import parameter
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.compiled import compiled
@@ -33,9 +41,28 @@ class Hills(Effect):
     pull: float = parameter(0.0, unit='N', low=-1e3, high=1e3, meaning='steepest pull')
 
 
+def left_by_what_pulls(**pulls: float) -> list[Dependence]:
+    """Return what the model that would be true without them leaves unexplained."""
+    make, how = MAKES['medium'], Recording()
+    drive = DRIVES['forces'](make, 0, how.duration, how.rate)
+    run = record(make.plant._replace(**pulls), drive, how, 0)
+    fit, held_out = fitted(run, exact(make.plant))
+    return find_dependences(Screen(fit), held_out)
+
+
 def test_hills_are_unexplained_and_known_by_where_they_are() -> None:
     drive = random_forces(4, 90.0, -9.0, 11.0)
     result = identify([rehearse(Model(effects=(Hills(1.5),)), drive, Surroundings(), 4)], Model())
     assert result.effects == ()
     assert result.unexplained is not None
     assert (result.unexplained.axis, result.unexplained.variable) == ('v', 'hill_x')
+
+
+def test_ground_in_short_waves_is_known_by_where_they_are() -> None:
+    left, *_ = left_by_what_pulls(wave=0.03, wave_length=1.3)
+    assert (left.basis.axis, left.basis.variable) == ('v', 'hill_x')
+
+
+def test_wind_that_veers_is_told_as_a_pull_that_changes() -> None:
+    variables = {left.basis.variable for left in left_by_what_pulls(wind=1.5, wind_turn=-0.05)}
+    assert 'pull' in variables

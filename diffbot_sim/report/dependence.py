@@ -92,6 +92,7 @@ STRUCTURE_LABELS = {
     'friction_over_time': 'time [s]',
     'time_of_push': 'time [s]',
     'friction_over_heading': 'heading [°]',
+    'pull': 'time [s], the pull along x',
     'hill_x': 'x [m]',
     'hill_y': 'y [m]',
     'place_x': 'x [m]',

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import nan
 
 import numpy as np
 from scipy import stats
@@ -18,9 +19,11 @@ from diffbot_sim.identification.free_forms.variables import VARIABLES
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.evidence import sandwich, wald_p
 from diffbot_sim.identification.selection.screening import Screen
+from diffbot_sim.identification.statistics.gains import AS_CHANCE, folds_chance
 from diffbot_sim.identification.statistics.memory import fall_of_deviance
 from diffbot_sim.identification.statistics.minimisation import Prior, derivatives, minimise
-from diffbot_sim.identification.statistics.robust import huber
+from diffbot_sim.identification.statistics.projection import Projection
+from diffbot_sim.identification.statistics.robust import huber, influence
 from diffbot_sim.records import Array
 
 # Evaluations of a fit of a free form, and shares of what first order promises at which it begins.
@@ -48,6 +51,7 @@ class Dependence:
     adaptation: Array
     spread: Array
     p_block: float
+    p_folds: float = nan
 
     @property
     def p_value(self) -> float:
@@ -114,7 +118,21 @@ def realised(fit: Fit, like: Dependence) -> Dependence:
         adaptation=(point - start)[:size],
         spread=sandwich(slopes[:, size:], rest, information[size:]),
         p_block=_of_best(basis, wald_p(point[size:], joint)),
+        p_folds=_folds_chance(slopes, rest, point[size:]),
     )
+
+
+def _folds_chance(slopes: Array, errors: Array, amounts: Array) -> float:
+    """Return the chance of what amounts from other parts predict of each part of the runs.
+
+    To first order around where they were fitted, slopes of shape (n, p), theirs the last: around
+    the model without them a robot that waits at another place, or starts earlier, seems to deny
+    what made it.
+    """
+    size = slopes.shape[1] - len(amounts)
+    free = Projection(slopes[:, :size])
+    columns, left = free.rest(slopes[:, size:]), free.rest(influence(errors)).ravel()
+    return folds_chance(left - columns @ amounts, columns, AS_CHANCE)
 
 
 def against_the_model(fit: Fit, dependence: Dependence) -> Dependence:

@@ -99,6 +99,16 @@ class Growth(Piecewise):
 
 
 @dataclass(frozen=True)
+class Pull(Growth):
+    """Growth of a pull along the world's x, and of one along its y, as the robot feels them."""
+
+    def columns(self, view: View, knots: Array) -> Array:
+        """Evaluate what grows along a stretch, of the pull along x first."""
+        grown, heading = super().columns(view, knots), view.stretch.heading[:, None, None]
+        return np.concatenate([grown * np.cos(heading), grown * np.sin(heading)], axis=1)
+
+
+@dataclass(frozen=True)
 class Spans:
     """Constant in each span of a variable, in proportion to weights; nothing beyond the last.
 

@@ -6,14 +6,13 @@ import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, whitened
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
-from diffbot_sim.identification.free_forms.bases import Basis, again, bases
+from diffbot_sim.identification.free_forms.bases import again, bases
 from diffbot_sim.identification.free_forms.dependence import (
     Dependence,
     acting,
     against_the_model,
     explained_by,
     realised,
-    sensitivity,
     worth_of,
 )
 from diffbot_sim.identification.free_forms.floor import by_place
@@ -22,7 +21,7 @@ from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.selection.screening import Screen
-from diffbot_sim.identification.statistics.gains import chance_of, folds_chance
+from diffbot_sim.identification.statistics.gains import chance_of
 from diffbot_sim.identification.statistics.guards import (
     BLOCK_LEVEL,
     EITHER_LEVEL,
@@ -85,24 +84,17 @@ def _is_beyond_doubt(
         return False
     if dependence.p_block > EITHER_LEVEL:
         return False
-    parts = _folds_chance(screen, dependence.basis)
     # A rough floor is the same again where the robot comes back, so that held-out data confirm
     # nothing: other parts of the floor must, and be as sure as blocks.
     if VARIABLES[dependence.basis.variable].order is by_place:
-        return parts <= BLOCK_LEVEL and lasting(dependence.p_block, parts)
+        sure = dependence.p_folds <= BLOCK_LEVEL
+        return sure and lasting(dependence.p_block, dependence.p_folds)
     held = _held_out_chance(screen.fit, dependence, held_out)
-    return lasting(dependence.p_block, elsewhere(held, parts))
+    return lasting(dependence.p_block, elsewhere(held, dependence.p_folds))
 
 
 def _may_be_chance(dependence: Dependence, fit: Fit, tried: int) -> bool:
     return may_be_chance(dependence.p_value, worth_of(dependence, fit), tried)
-
-
-def _folds_chance(screen: Screen, basis: Basis) -> float:
-    """Return the chance of what it predicts of each part from others, to first order."""
-    slopes = screen.project(sensitivity(screen, basis)).reshape(-1, basis.size)
-    errors, columns = (basis.parted(r, screen.fit.stretches) for r in (screen.residual, slopes))
-    return folds_chance(errors, columns)
 
 
 def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) -> float:

@@ -32,6 +32,7 @@ from diffbot_sim.identification.free_forms.forms import (
     Past,
     Periodic,
     Piecewise,
+    Pull,
     Spans,
     TwoSided,
     Waves,
@@ -164,6 +165,11 @@ VARIABLES = {
         ('wheels',),
     ),
     'time': Variable('time', Piecewise(_time), BODY),
+    'pull': Variable(
+        'time, like a pull that is fixed in the world and changes',
+        Pull(_time, counts=GROWTH_KNOTS),
+        ('v',),
+    ),
     'rhythm': Variable(
         'time, the same again every {period:.3g} s',
         Periodic(lambda view: 2.0 * np.pi * view.stretch.time, _rhythms, LOOKED_AT),

@@ -12,8 +12,9 @@ from diffbot_sim.records import Array
 BLOCKS = 20
 # Parts of the runs, and into how many groups of parts they are dealt in turn.
 PARTS, FOLDS = 40, 5
-# Keeps columns apart that the other parts of a run hardly show.
-RIDGE = 1e-6
+# What is known of amounts beforehand, in units of what chance makes of them: next to nothing, or
+# that each does about as much as chance. The latter does not take the noise of many for amounts.
+NOTHING, AS_CHANCE = 1e-6, 1.0
 # Largest fall of the loss that one sample of another part may stand for.
 MOST_OF_SAMPLE = 4.0
 
@@ -36,12 +37,13 @@ def chance_of(gain: Array) -> float:
     return block_gain(np.clip(gain, -MOST_OF_SAMPLE, MOST_OF_SAMPLE).sum(axis=1))[1]
 
 
-def folds_chance(errors: Array, columns: Array) -> float:
+def folds_chance(errors: Array, columns: Array, known: float = NOTHING) -> float:
     """Return the chance of what amounts from other parts of the runs predict of each part.
 
     errors: whitened, shape (2 n,); columns: their derivatives by the amounts, shape (2 n, q); of
-    both is taken out what else is free. Parts lie between each other: where a robot never comes
-    back, or time has gone, the end of a run cannot confirm what the beginning says.
+    both is taken out what else is free; known: beforehand, of the amounts. Parts lie between each
+    other: where a robot never comes back, or time has gone, the end of a run cannot confirm what
+    the beginning says.
     """
     columns = columns / np.maximum(np.linalg.norm(columns, axis=0), 1e-12)
     parts = np.arange(len(errors)) * PARTS // len(errors) % FOLDS
@@ -50,7 +52,7 @@ def folds_chance(errors: Array, columns: Array) -> float:
     products = np.array([c.T @ e for c, e in inside])
     gain = np.empty(len(errors))
     for fold, (c, e) in enumerate(inside):
-        others = squares.sum(axis=0) - squares[fold] + RIDGE * np.eye(columns.shape[1])
+        others = squares.sum(axis=0) - squares[fold] + known * np.eye(columns.shape[1])
         amounts = np.linalg.solve(others, products[fold] - products.sum(axis=0))
         gain[parts == fold] = huber(e) - huber(e + c @ amounts)
     return chance_of(gain.reshape(-1, 2))
