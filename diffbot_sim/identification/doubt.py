@@ -37,6 +37,8 @@ LEFT_SHARE, SAME_SHARE = 0.1, 0.15
 # No effect lowered the BIC by half as much on any of 200 clean robots; what does is no chance,
 # though it may not enter.
 SUSPICIOUS = 50.0
+# Beside names a law that is right to a seventh leaves this share of what they explain to others.
+SLIGHT = 0.02
 # A name that is worth less is believed beside what is left, or refused, if that explains less than
 # this share of it.
 WORTHIER = 0.5
@@ -152,7 +154,8 @@ def _suspicion(seen: Seen) -> Objection:
     refused = [t for t in selection.trials if t.refused and not t.evidence.is_contradicted]
     most = max(refused, key=lambda t: t.evidence.delta_bic, default=None)
     suspected = 0.0 if most is None else _worth_without_luck(most)
-    if most is None or suspected < SUSPICIOUS + seen.allowed:
+    named = sum(evidence.delta_bic for evidence in selection.support.values())
+    if most is None or suspected < SUSPICIOUS + SLIGHT * named + seen.allowed:
         # Beside a name moments may be its own misses.
         some = None if final.space.kinds else pushed(final)
         return '', some or moves_otherwise(final, seen.held_out)

@@ -20,6 +20,7 @@ from diffbot_sim.identification.free_forms.variables import VARIABLES
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
+from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.statistics.gains import chance_of
 from diffbot_sim.identification.statistics.guards import (
@@ -94,7 +95,9 @@ def _is_beyond_doubt(
 
 
 def _may_be_chance(dependence: Dependence, fit: Fit, tried: int) -> bool:
-    return may_be_chance(dependence.p_value, worth_of(dependence, fit), tried)
+    # Like a name, it must lower the BIC by what tells structures apart.
+    worth = worth_of(dependence, fit) - INDISTINGUISHABLE
+    return may_be_chance(dependence.p_value, worth, tried)
 
 
 def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) -> float:
