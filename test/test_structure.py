@@ -20,8 +20,9 @@ from diffbot_sim.identification.free_forms.dependence import (
 )
 from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.identification.free_forms.structure import dependences, find_dependences
+from diffbot_sim.identification.free_forms.warmth import lately
 from diffbot_sim.identification.selection.screening import Screen
-from diffbot_sim.physics import Model
+from diffbot_sim.physics import Model, simulate
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
 from diffbot_sim.physics.effects.direction_dependent_friction import DirectionDependentFriction
 from diffbot_sim.physics.effects.transmission_loss import TransmissionLoss
@@ -112,6 +113,15 @@ def test_force_that_waits_where_it_turns_back_is_told_by_its_sign() -> None:
     force = np.where(waits, drive.force - 3.0 * sense, drive.force)
     left, *_ = left_by(acted_otherwise(drive, force))
     assert (left.basis.variable, left.basis.axis) == ('time_since_reversal', 'wheels')
+
+
+def test_friction_that_falls_as_a_wheel_warms_is_told_by_how_much_it_rolled_lately() -> None:
+    drive = random_forces(3, 90.0, -9.0, 11.0)
+    drive = replace(drive, force=drive.force * (drive.time % 30.0 < 15.0)[:, None])
+    speeds = simulate(Model(), drive, drive.time).twist @ [[1.0, 1.0], [0.2, -0.2]]
+    eased = 1.5 * np.sign(speeds) * lately(np.abs(speeds), drive.time, 10.0)
+    left, *_ = left_by(acted_otherwise(drive, drive.force + eased))
+    assert (left.basis.variable, left.basis.axis) == ('warmth', 'wheels')
 
 
 def test_gear_that_rubs_under_load_is_told_by_how_hard_it_is_driven() -> None:

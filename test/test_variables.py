@@ -16,6 +16,7 @@ from diffbot_sim.identification.free_forms.starting import START, rest_before, s
 from diffbot_sim.identification.free_forms.swinging import swung
 from diffbot_sim.identification.free_forms.turning_back import rolled_since, turned_since
 from diffbot_sim.identification.free_forms.variables import TOLD, VARIABLES
+from diffbot_sim.identification.free_forms.warmth import lately
 from diffbot_sim.identification.recordings.stretches import whole
 from diffbot_sim.physics import Model
 from diffbot_sim.report.dependence import structure_label
@@ -98,6 +99,15 @@ def test_friction_after_a_rest_acts_as_wheels_start(view: View) -> None:
     assert np.all(backward[rolling & (begun < START - 0.5 * interval)])
     assert not np.any(backward[~rolling | (begun > START + 0.5 * interval)])
     assert not np.any(started(stop_and_go)[:, 1])
+
+
+def test_warmth_rises_to_the_speed_and_fades_at_rest() -> None:
+    time = np.arange(0.0, 60.0, 0.01)
+    mean = lately(np.where(time < 30.0, 0.5, 0.0)[:, None], time, 10.0)[:, 0]
+    at = np.searchsorted(time, (10.0, 30.0, 40.0))
+    warm = 0.5 * (1.0 - np.exp(-3.0))
+    expected = (0.5 * (1.0 - np.exp(-1.0)), warm, warm * np.exp(-1.0))
+    np.testing.assert_allclose(mean[at], expected, rtol=1e-3)
 
 
 def test_way_since_a_wheel_turned_back_goes_on_over_a_rest(view: View) -> None:

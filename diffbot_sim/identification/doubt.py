@@ -224,8 +224,8 @@ def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
 
     rest: the fit that lacks the effect, final: the one that has it; left: what is beyond doubt in
     it. A law of the right form leaves little to a free form that is about the same. What is about
-    something else says nothing against it, as long as the effect explains enough beside it: the
-    declared friction may be of another form than the robot's.
+    something else says nothing against it, as long as the effect explains enough beside it, and no
+    less than that: the declared friction may be of another form than the robot's.
     """
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
     if left.fall < LEFT_SHARE * worth:
@@ -233,6 +233,7 @@ def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
     whole = _acting_in(rest, left, final.sigma)
     taken = whole.fall - left.fall
     price = (len(final.u) - len(rest.u)) * float(np.log(final.whitened.size))
-    much = worth - taken - price > SUSPICIOUS
-    worthier = WORTHIER * (worth - price) > worth_of(left, final)
+    unnamed = worth_of(left, final)
+    much = worth - taken - price > max(SUSPICIOUS, unnamed)
+    worthier = WORTHIER * (worth - price) > unnamed
     return None if taken < SAME_SHARE * worth and (much or worthier) else whole

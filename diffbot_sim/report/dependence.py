@@ -93,6 +93,7 @@ STRUCTURE_LABELS = {
     'time_of_push': 'time [s]',
     'friction_over_heading': 'heading [°]',
     'pull': 'time [s], the pull along x',
+    'warmth': 'mean speed of a wheel lately, either way [m/s]',
     'hill_x': 'x [m]',
     'hill_y': 'y [m]',
     'place_x': 'x [m]',

@@ -47,6 +47,7 @@ from diffbot_sim.identification.free_forms.turning_back import (
     rolled_since,
     turned_since,
 )
+from diffbot_sim.identification.free_forms.warmth import Warming
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.records import Array
 
@@ -55,7 +56,9 @@ LOOKED_AT = 1000
 # Speeds below which contacts creep or bend, and at which laws of Stribeck friction differ [m/s].
 CREEPING = (0.0, 0.005, 0.02, 0.08)
 NEAR_REST = ((0.0,), CREEPING)
-Form = Constant | Piecewise | Growth | Spans | TwoSided | Odd | Periodic | Past | Swinging
+Form = (
+    Constant | Piecewise | Growth | Spans | TwoSided | Odd | Periodic | Past | Swinging | Warming
+)
 BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
 
 
@@ -279,6 +282,11 @@ VARIABLES = {
     ),
     'friction_over_time': Variable(
         'time, against the motion', Growth(_time_of_wheels, _rolling, GROWTH_KNOTS), WHEELS
+    ),
+    'warmth': Variable(
+        'how much each wheel rolled in the last {rate:.3g} s, against the motion',
+        Warming(),
+        ('wheels',),
     ),
     'hill_x': Variable(
         'where along x it is, like the pull of a hill',
