@@ -234,6 +234,6 @@ def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
     taken = whole.fall - left.fall
     price = (len(final.u) - len(rest.u)) * float(np.log(final.whitened.size))
     unnamed = worth_of(left, final)
-    much = worth - taken - price > max(SUSPICIOUS, unnamed)
+    much = worth - max(taken, 0.0) - price > max(SUSPICIOUS, unnamed)
     worthier = WORTHIER * (worth - price) > unnamed
     return None if taken < SAME_SHARE * worth and (much or worthier) else whole
