@@ -115,6 +115,14 @@ def test_force_that_waits_where_it_turns_back_is_told_by_its_sign() -> None:
     assert (left.basis.variable, left.basis.axis) == ('time_since_reversal', 'wheels')
 
 
+def test_command_that_acts_on_the_other_wheel_too_is_told_by_it() -> None:
+    drive = random_forces(3, 60.0, -9.0, 11.0)
+    result = identify([acted_otherwise(drive, drive.force @ [[1.0, 0.3], [0.0, 1.0]])], Model())
+    assert result.effects == ()
+    assert result.unexplained is not None
+    assert result.unexplained.variable == 'other_force'
+
+
 def test_friction_that_falls_as_a_wheel_warms_is_told_by_how_much_it_rolled_lately() -> None:
     drive = random_forces(3, 90.0, -9.0, 11.0)
     drive = replace(drive, force=drive.force * (drive.time % 30.0 < 15.0)[:, None])

@@ -77,6 +77,7 @@ STRUCTURE_LABELS = {
     'rolling': 'speed of a wheel [m/s]',
     'rolling_one_way': 'speed of a wheel, either way [m/s]',
     'wheel_force': "a wheel's commanded force [N]",
+    'other_force': "the other wheel's commanded force [N]",
     'force_steps': 'command over its step, as a phase [°]',
     'rest_before': 'rest of a wheel before it starts [ln s]',
     'way_since_reversal': 'way of a wheel since it turned back [m]',

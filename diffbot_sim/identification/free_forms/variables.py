@@ -216,6 +216,12 @@ VARIABLES = {
     'wheel_force': Variable(
         "each wheel's commanded force", Piecewise(lambda view: view.force), WHEELS
     ),
+    # What acts on both wheels alike is another mass and inertia.
+    'other_force': Variable(
+        "the other wheel's commanded force",
+        Piecewise(lambda view: view.force[:, ::-1]),
+        ('difference',),
+    ),
     'force_steps': Variable(
         "each wheel's commanded force, as if it came in steps of {period:.3g} N",
         Periodic(lambda view: 2.0 * np.pi * view.force, _alone(force_rates), LOOKED_AT),
