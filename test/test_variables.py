@@ -11,7 +11,8 @@ from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, predictions
 from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.identification.free_forms.bases import Basis
-from diffbot_sim.identification.free_forms.forms import PAST, Growth, Spans
+from diffbot_sim.identification.free_forms.forms import Growth, Spans
+from diffbot_sim.identification.free_forms.past import PAST
 from diffbot_sim.identification.free_forms.starting import START, rest_before, started
 from diffbot_sim.identification.free_forms.swinging import swung
 from diffbot_sim.identification.free_forms.turning_back import rolled_since, turned_since

@@ -12,7 +12,6 @@ from typing import ClassVar
 import numpy as np
 
 from diffbot_sim.identification.fitting.views import View
-from diffbot_sim.identification.recordings.stretches import largest_command
 from diffbot_sim.records import Array
 
 # Numbers of knots: a line, of few functions, shows what is weak; many show what is of any form.
@@ -20,8 +19,6 @@ from diffbot_sim.records import Array
 KNOTS, BENT_KNOTS, FEW_KNOTS, FINE_KNOTS = (2, 6), (3, 6), (2, 4), (2, 6, 20)
 # What is alike at all times is a gain, or friction, that the model has.
 GROWTH_KNOTS = (2, 3, 6)
-# Edges of the spans in which the past of a command is averaged [s].
-PAST = np.array([0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
 
 # What a variable is at every sample, shape (k,) or (k, 2).
 Of = Callable[[View], Array]
@@ -248,46 +245,6 @@ class Periodic:
         """Return angles of one turn, and the functions of the body or the right wheel there."""
         angle = np.linspace(-np.pi, np.pi, self.points)
         return angle, _waves(angle[:, None], rates / rates[0])[..., 0]
-
-
-@dataclass(frozen=True)
-class Past:
-    """Every wheel's command in spans of the past: any linear law between command and force."""
-
-    looked_at: ClassVar[int] = 1
-
-    def grids(self, views: Sequence[View]) -> list[Array]:
-        """Return the edges of the spans [s]."""
-        del views
-        return [PAST]
-
-    def columns(self, view: View, edges: Array) -> Array:
-        """Return mean commands of each span, over the largest command."""
-        spans = [view.past_force(*span) for span in pairwise(edges)]
-        return np.stack(spans, axis=1) / _most(view)
-
-    def curve(self, edges: Array) -> tuple[Array, Array]:
-        """Return the middles of the spans and the functions there."""
-        return 0.5 * (edges[1:] + edges[:-1]), np.eye(len(edges) - 1)
-
-
-@dataclass(frozen=True)
-class Changes(Past):
-    """How far every wheel's command is from its past, squared, with its sign.
-
-    Any law by which large changes act otherwise than small ones.
-    """
-
-    def columns(self, view: View, edges: Array) -> Array:
-        """Return signed squares of changes since each span, over the largest command."""
-        now = view.force[:, None] / _most(view)
-        changes = now - super().columns(view, edges)
-        return np.asarray(changes * np.abs(changes))
-
-
-def _most(view: View) -> float:
-    """Return the largest command of a stretch's run [N], if there is any."""
-    return max(largest_command([view.stretch]), 1e-9)
 
 
 def _hats(values: Array, knots: Array, weights: Array) -> Array:

@@ -22,20 +22,32 @@ from diffbot_sim.identification.free_forms.forms import (
     FEW_KNOTS,
     FINE_KNOTS,
     GROWTH_KNOTS,
-    Changes,
     Constant,
     Fading,
     Growth,
     Near,
     Odd,
-    Of,
-    Past,
     Periodic,
     Piecewise,
     Pull,
     Spans,
     TwoSided,
     Waves,
+)
+from diffbot_sim.identification.free_forms.past import Changes, Past
+from diffbot_sim.identification.free_forms.quantities import (
+    along,
+    along_of_wheels,
+    driving,
+    others_force,
+    rolling,
+    rolls,
+    share_of_force,
+    time,
+    time_of_wheels,
+    towards,
+    turning,
+    wheel_speeds,
 )
 from diffbot_sim.identification.free_forms.starting import rest_before, started
 from diffbot_sim.identification.free_forms.swinging import Swinging
@@ -49,7 +61,6 @@ from diffbot_sim.identification.free_forms.turning_back import (
 )
 from diffbot_sim.identification.free_forms.warmth import Warming
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.records import Array
 
 # Rates that differ by a line width, among which the strongest were chosen; a generous count.
 LOOKED_AT = 1000
@@ -76,46 +87,6 @@ class Variable:
     order: Callable[[Sequence[Stretch]], Order] = in_time
 
 
-def _time(view: View) -> Array:
-    return view.stretch.time
-
-
-def _time_of_wheels(view: View) -> Array:
-    return np.repeat(view.stretch.time[:, None], 2, axis=1)
-
-
-def _rolling(view: View) -> Array:
-    return np.sign(view.wheel_speed)
-
-
-def _rolls(view: View) -> Array:
-    return np.abs(_rolling(view))
-
-
-def _turning(view: View) -> Array:
-    return np.sign(view.omega)
-
-
-def _along(index: int) -> Of:
-    """Where along x (0) or y (1) the robot is [m]; 0 where no pose is known."""
-
-    def of(view: View) -> Array:
-        pose = view.stretch.pose
-        return np.zeros(len(view.stretch.time)) if pose is None else pose[:, index]
-
-    return of
-
-
-def _towards(index: int) -> Of:
-    """How much of x (0) or y (1) lies along the robot."""
-    return lambda view: np.asarray((np.cos, np.sin)[index](view.stretch.heading))
-
-
-def _place(index: int) -> Of:
-    """Return the same, once for each wheel."""
-    return lambda view: np.repeat(_along(index)(view)[:, None], 2, axis=1)
-
-
 def _alone(rates: Callable[[Sequence[View]], Sequence[float]]) -> Waves:
     """Return what gives each rate as a wave of its own."""
     return lambda seen: [(rate,) for rate in rates(seen)]
@@ -136,19 +107,6 @@ def _harmonics(rate: float) -> tuple[float, ...]:
     return tuple(rate * h for h in range(1, TEETH + 1))
 
 
-def _share_of_force(view: View) -> Array:
-    return np.asarray(view.force / max(float(np.abs(view.force).max()), 1e-9))
-
-
-def _sizes(view: View) -> Array:
-    return np.abs(view.wheel_speed)
-
-
-def _drive(view: View) -> Array:
-    """How hard each wheel is driven, or, below zero, braked [N]."""
-    return np.asarray(view.force * _rolling(view))
-
-
 VARIABLES = {
     'constant': Variable('nothing (it is always the same)', Constant(), BODY),
     'v': Variable('the speed', Piecewise(lambda view: view.v), BODY),
@@ -164,13 +122,13 @@ VARIABLES = {
     'heading': Variable('the heading', Periodic(lambda view: view.stretch.heading), BODY),
     'friction_over_heading': Variable(
         'the heading, against the motion',
-        Periodic(lambda view: view.stretch.heading, weights=_rolling),
+        Periodic(lambda view: view.stretch.heading, weights=rolling),
         ('wheels',),
     ),
-    'time': Variable('time', Piecewise(_time), BODY),
+    'time': Variable('time', Piecewise(time), BODY),
     'pull': Variable(
         'time, like a pull that is fixed in the world and changes',
-        Pull(_time, counts=GROWTH_KNOTS),
+        Pull(time, counts=GROWTH_KNOTS),
         ('v',),
     ),
     'rhythm': Variable(
@@ -195,12 +153,12 @@ VARIABLES = {
     ),
     'yielding': Variable(
         "each wheel's speed near rest, in proportion to the commanded force",
-        Fading(_sizes, _share_of_force, sets=(CREEPING,)),
+        Fading(wheel_speeds, share_of_force, sets=(CREEPING,)),
         ('wheels',),
     ),
     'rolling_one_way': Variable(
         "each wheel's speed (pushing the same way forward and backward)",
-        Piecewise(_sizes, _rolls),
+        Piecewise(wheel_speeds, rolls),
         WHEELS,
     ),
     'wheel_angle': Variable(
@@ -210,7 +168,7 @@ VARIABLES = {
     ),
     'friction_over_wheel_angle': Variable(
         "each wheel's angle, against the motion, at order {rate:.3g}",
-        Periodic(lambda view: view.wheel_angle, _rubbing, LOOKED_AT, weights=_rolling),
+        Periodic(lambda view: view.wheel_angle, _rubbing, LOOKED_AT, weights=rolling),
         ('wheels',),
     ),
     'wheel_force': Variable(
@@ -219,7 +177,7 @@ VARIABLES = {
     # What acts on both wheels alike is another mass and inertia.
     'other_force': Variable(
         "the other wheel's commanded force",
-        Piecewise(lambda view: view.force[:, ::-1]),
+        Piecewise(others_force),
         ('difference',),
     ),
     'force_steps': Variable(
@@ -229,12 +187,12 @@ VARIABLES = {
     ),
     'drive': Variable(
         'how hard each wheel is driven or braked, against the motion',
-        Piecewise(_drive, _rolling, BENT_KNOTS),
+        Piecewise(driving, rolling, BENT_KNOTS),
         ('wheels',),
     ),
     'force_over_speed': Variable(
         "each wheel's speed, in proportion to the commanded force",
-        Growth(_sizes, _share_of_force, GROWTH_KNOTS),
+        Growth(wheel_speeds, share_of_force, GROWTH_KNOTS),
         ('wheels',),
     ),
     'force_change': Variable(
@@ -248,7 +206,7 @@ VARIABLES = {
     ),
     'way_since_reversal': Variable(
         'how far each wheel has rolled since it last turned back',
-        Spans(rolled_since, _rolling, WAYS),
+        Spans(rolled_since, rolling, WAYS),
         ('wheels',),
     ),
     'time_since_reversal': Variable(
@@ -258,7 +216,7 @@ VARIABLES = {
     ),
     'turn_since_reversal': Variable(
         'how far it has turned since it last turned the other way',
-        Spans(turned_since, _turning, ANGLES),
+        Spans(turned_since, turning, ANGLES),
         ('omega',),
     ),
     'swing': Variable(
@@ -273,21 +231,21 @@ VARIABLES = {
     ),
     'force_over_time': Variable(
         'time, in proportion to the commanded force',
-        Growth(_time_of_wheels, _share_of_force, GROWTH_KNOTS),
+        Growth(time_of_wheels, share_of_force, GROWTH_KNOTS),
         WHEELS,
     ),
     'gain_rhythm': Variable(
         'time, the same again every {period:.3g} s, in proportion to the commanded force',
         Periodic(
-            lambda view: 2.0 * np.pi * _time_of_wheels(view),
+            lambda view: 2.0 * np.pi * time_of_wheels(view),
             _alone(gain_rates),
             LOOKED_AT,
-            weights=_share_of_force,
+            weights=share_of_force,
         ),
         ('wheels',),
     ),
     'friction_over_time': Variable(
-        'time, against the motion', Growth(_time_of_wheels, _rolling, GROWTH_KNOTS), WHEELS
+        'time, against the motion', Growth(time_of_wheels, rolling, GROWTH_KNOTS), WHEELS
     ),
     'warmth': Variable(
         'how much each wheel rolled in the last {rate:.3g} s, against the motion',
@@ -296,25 +254,25 @@ VARIABLES = {
     ),
     'hill_x': Variable(
         'where along x it is, like the pull of a hill',
-        Piecewise(_along(0), _towards(0), FINE_KNOTS),
+        Piecewise(along(0), towards(0), FINE_KNOTS),
         ('v',),
         by_place,
     ),
     'hill_y': Variable(
         'where along y it is, like the pull of a hill',
-        Piecewise(_along(1), _towards(1), FINE_KNOTS),
+        Piecewise(along(1), towards(1), FINE_KNOTS),
         ('v',),
         by_place,
     ),
     'place_x': Variable(
         'where along x it rolls, against the motion',
-        Piecewise(_place(0), _rolling, FINE_KNOTS),
+        Piecewise(along_of_wheels(0), rolling, FINE_KNOTS),
         ('wheels',),
         by_place,
     ),
     'place_y': Variable(
         'where along y it rolls, against the motion',
-        Piecewise(_place(1), _rolling, FINE_KNOTS),
+        Piecewise(along_of_wheels(1), rolling, FINE_KNOTS),
         ('wheels',),
         by_place,
     ),
