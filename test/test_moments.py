@@ -34,8 +34,15 @@ def test_pushes_are_told_with_their_moments_and_signs(around: Surroundings) -> N
     assert left is not None
     assert left.variable == 'time_of_push'
     first, second = left.force[np.searchsorted(left.knots, (21.1, 43.1))]
-    assert first > 1.0
-    assert second < -1.0
+    assert (first, second) == pytest.approx((12.0, -12.0), abs=2.5)
+
+
+def test_push_that_swells_and_fades_is_told_with_its_force() -> None:
+    force, since = DRIVE.force.copy(), DRIVE.time - 21.0
+    swelling = 14.0 * np.sin(np.pi * np.clip(since / 4.0, 0.0, 1.0))
+    left = pushed(fit_of(acted_otherwise(DRIVE, force + 0.5 * swelling[:, None], SMOOTH, 5)))
+    assert left is not None
+    assert left.force[np.searchsorted(left.knots, 23.0)] == pytest.approx(14.0, abs=2.0)
 
 
 @pytest.mark.parametrize('around', [SMOOTH, ROUGH])
