@@ -23,9 +23,13 @@ from diffbot_sim.identification.free_forms.structure import dependences, find_de
 from diffbot_sim.identification.free_forms.warmth import lately
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.physics import Model, simulate
+from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
+from diffbot_sim.physics.effects.actuator_fade import ActuatorFade
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
+from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 from diffbot_sim.physics.effects.direction_dependent_friction import DirectionDependentFriction
 from diffbot_sim.physics.effects.transmission_loss import TransmissionLoss
+from diffbot_sim.physics.effects.yaw_friction import YawFriction
 from diffbot_sim.records import Commands, Run
 
 
@@ -99,7 +103,7 @@ def test_force_that_changes_only_so_fast_is_told_by_its_changes() -> None:
     force, most = drive.force.copy(), 30.0 * np.diff(drive.time)
     for k, change in enumerate(most, start=1):
         force[k] = force[k - 1] + np.clip(drive.force[k] - force[k - 1], -change, change)
-    result = identify([acted_otherwise(drive, force)], Model())
+    result = identify([acted_otherwise(drive, force)], Model(), kinds=[ActuatorLag, ActuatorDelay])
     assert result.effects == ()
     assert result.unexplained is not None
     assert result.unexplained.variable == 'force_change'
@@ -117,7 +121,8 @@ def test_force_that_waits_where_it_turns_back_is_told_by_its_sign() -> None:
 
 def test_command_that_acts_on_the_other_wheel_too_is_told_by_it() -> None:
     drive = random_forces(3, 60.0, -9.0, 11.0)
-    result = identify([acted_otherwise(drive, drive.force @ [[1.0, 0.3], [0.0, 1.0]])], Model())
+    coupled = acted_otherwise(drive, drive.force @ [[1.0, 0.3], [0.0, 1.0]])
+    result = identify([coupled], Model(), kinds=[ActuatorGain, YawFriction])
     assert result.effects == ()
     assert result.unexplained is not None
     assert result.unexplained.variable == 'other_force'
@@ -160,7 +165,8 @@ def test_push_that_comes_again_and_again_is_no_bias() -> None:
 def test_drive_of_a_wheel_that_pulses_is_told_with_its_period() -> None:
     drive = random_forces(3, 60.0, -9.0, 11.0)
     pulsing = np.column_stack([1.0 + 0.6 * np.sin(2.0 * np.pi * 2.5 * drive.time), drive.time**0])
-    result = identify([acted_otherwise(drive, drive.force * pulsing)], Model())
+    pulsed = acted_otherwise(drive, drive.force * pulsing)
+    result = identify([pulsed], Model(), kinds=[ActuatorGain, ActuatorFade])
     assert result.effects == ()
     assert result.unexplained is not None
     assert result.unexplained.variable == 'gain_rhythm'
