@@ -19,7 +19,7 @@ from diffbot_sim.identification.free_forms.variables import VARIABLES
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.evidence import sandwich, wald_p
 from diffbot_sim.identification.selection.screening import Screen
-from diffbot_sim.identification.statistics.gains import AS_CHANCE, folds_chance
+from diffbot_sim.identification.statistics.gains import THRICE_CHANCE, folds_chance
 from diffbot_sim.identification.statistics.memory import fall_of_deviance
 from diffbot_sim.identification.statistics.minimisation import Prior, derivatives, minimise
 from diffbot_sim.identification.statistics.projection import Projection
@@ -132,7 +132,7 @@ def _folds_chance(slopes: Array, errors: Array, amounts: Array) -> float:
     size = slopes.shape[1] - len(amounts)
     free = Projection(slopes[:, :size])
     columns, left = free.rest(slopes[:, size:]), free.rest(influence(errors)).ravel()
-    return folds_chance(left - columns @ amounts, columns, AS_CHANCE)
+    return folds_chance(left - columns @ amounts, columns, THRICE_CHANCE)
 
 
 def against_the_model(fit: Fit, dependence: Dependence) -> Dependence:
