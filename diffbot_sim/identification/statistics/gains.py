@@ -12,9 +12,9 @@ from diffbot_sim.records import Array
 BLOCKS = 20
 # Parts of the runs, and into how many groups of parts they are dealt in turn.
 PARTS, FOLDS = 40, 5
-# What is known of amounts beforehand, as the inverse variance in units of what chance makes of them:
-# next to nothing, or that each does some three times as much as chance. That takes less of the noise
-# of many for amounts, and hardly changes what a few predict.
+# What is known of amounts beforehand, the inverse variance in units of what chance makes of them:
+# next to nothing, or that each does some three times as much as chance. That takes less of the
+# noise of many for amounts, and hardly changes what a few predict.
 NOTHING, THRICE_CHANCE = 1e-6, 0.1
 # Largest fall of the loss that one sample of another part may stand for.
 MOST_OF_SAMPLE = 4.0
