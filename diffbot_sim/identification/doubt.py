@@ -224,8 +224,8 @@ def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
 
     rest: the fit that lacks the effect, final: the one that has it; left: what is beyond doubt in
     it. A law of the right form leaves little to a free form that is about the same. What is about
-    something else says nothing against it, as long as the effect explains enough beside it, and no
-    less than that: the declared friction may be of another form than the robot's.
+    something else says nothing against it, as long as the effect explains enough beside it: the
+    declared friction may be of another form than the robot's.
     """
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
     if left.fall < LEFT_SHARE * worth:
@@ -234,6 +234,8 @@ def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
     taken = whole.fall - left.fall
     price = (len(final.u) - len(rest.u)) * float(np.log(final.whitened.size))
     unnamed = worth_of(left, final)
-    much = worth - max(taken, 0.0) - price > max(SUSPICIOUS, unnamed)
+    # Beside a larger unknown what either explains only with the other's help is not the name's.
+    shared = abs(taken) if unnamed > worth else max(taken, 0.0)
+    much = worth - shared - price > SUSPICIOUS
     worthier = WORTHIER * (worth - price) > unnamed
     return None if taken < SAME_SHARE * worth and (much or worthier) else whole
