@@ -35,10 +35,10 @@ def wandering(mean: float, seed: int = 0):
     return np.repeat(steps, 20, axis=0)
 
 
-def difference(model: Model, stretch: Stretch, push):
-    """Return what a push adds to the innovations, half of its way back and forth."""
+def difference(model: Model, stretch: Stretch, push, of: str = 'innovation'):
+    """Return what a push adds to something predicted, half of its way back and forth."""
     more, less = (
-        predict(model, stretch.pushed(sign * FORCE * push), FIRST_GAINS).innovation
+        getattr(predict(model, stretch.pushed(sign * FORCE * push), FIRST_GAINS), of)
         for sign in (1, -1)
     )
     return (more - less) / (2.0 * FORCE)
@@ -54,6 +54,15 @@ def test_a_rolling_robot_answers_as_the_predictor_does(effects, means) -> None:
     push = np.random.default_rng(1).normal(size=(1000, 2)).cumsum(axis=0) / 30.0
     linear = response(model, stretch, FIRST_GAINS, FORCE).errors(push[..., None])[..., 0]
     wanted = difference(model, stretch, push)
+    assert np.linalg.norm(linear - wanted) < 0.02 * np.linalg.norm(wanted)
+
+
+def test_noise_model_follows_a_push_as_in_the_predictor() -> None:
+    stretch = driven(Model(), wandering(8.0))
+    push = np.random.default_rng(1).normal(size=(1000, 2)).cumsum(axis=0) / 30.0
+    answer = response(Model(), stretch, FIRST_GAINS, FORCE)
+    linear = answer.followed(answer.errors(push[..., None]))[..., 0]
+    wanted = difference(Model(), stretch, push, 'disturbance')
     assert np.linalg.norm(linear - wanted) < 0.02 * np.linalg.norm(wanted)
 
 

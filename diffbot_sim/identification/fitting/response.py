@@ -57,6 +57,12 @@ class Response:
         _carry(self.steps, self.taken, self.gain, self.memory, changes, out)
         return out
 
+    def followed(self, errors: Array) -> Array:
+        """Return what changes of the innovations, shape (k, 2, q), add to the disturbance."""
+        out = np.zeros(errors.shape)
+        _follow(self.gain, self.memory, np.ascontiguousarray(errors), out)
+        return out
+
 
 def responses(fit: Fit) -> tuple[Response, ...]:
     """Return how the errors of a fit on each stretch answer to pushes."""
@@ -97,3 +103,13 @@ def _carry(  # type: ignore[no-untyped-def]
             v, omega = now_v - taken[0] * told_v, now - taken[1] * told
             pushing = memory[k, 0] * pushing - gain[k, 0] * told_v
             turning = memory[k, 1] * turning - gain[k, 1] * told
+
+
+@entry(types.void(MATRIX, MATRIX, CUBE, CUBE))
+def _follow(gain, memory, errors, out) -> None:  # type: ignore[no-untyped-def]
+    """Fill out: what errors add to the disturbance, after each of them."""
+    for k in range(1, len(errors)):
+        for axis in range(2):
+            for q in range(errors.shape[2]):
+                kept = memory[k, axis] * out[k - 1, axis, q]
+                out[k, axis, q] = kept + gain[k, axis] * errors[k, axis, q]

@@ -5,11 +5,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import stats
 
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.fitting.predictor import predict
 from diffbot_sim.identification.fitting.response import Response, responses
 from diffbot_sim.identification.fitting.views import View, views
 from diffbot_sim.identification.free_forms.structure import FORCES
@@ -157,39 +155,21 @@ def over_time(view: View, response: Response, axis: int) -> tuple[Array, Array, 
 
 
 def _acting(view: View, response: Response, axis: int, middles: Array) -> tuple[Array, Array]:
-    """Return the forces that act in windows, and their standard errors.
-
-    The noise model soon follows a force: what it follows comes on top of what errors tell.
-    """
-    force, error = _force(view, response, axis, middles)
-    followed = [_followed(view, axis, m, f) for m, f in zip(middles, force, strict=True)]
-    return force + followed, error
-
-
-def _followed(view: View, axis: int, middle: float, force: float) -> float:
-    """Return what the noise model follows in a window, beside a force that acts there."""
-    within = _is_within(view, middle)
-    push = np.zeros((len(within), 2))
-    push[:, axis] = force * within
-    seen = predict(view.fit.model, view.stretch.pushed(push), view.fit.gains)
-    return float(seen.disturbance[within, axis].mean())
-
-
-def _force(view: View, response: Response, axis: int, middles: Array) -> tuple[Array, Array]:
     """Return forces in windows that explain the errors best, and their standard errors.
 
-    An infinite error where no force is felt.
+    An infinite error where no force is felt. The noise model soon follows a force: what it follows
+    comes on top of what errors tell.
     """
     time, sigma = view.stretch.time, view.fit.sigma
+    within = np.abs(time[:, None] - middles) <= 0.5 * WINDOW
     acting = np.zeros((len(time), 2, len(middles)))
-    acting[:, axis] = np.transpose([_is_within(view, middle) for middle in middles])
-    slopes = response.errors(acting) / sigma[:, None] * view.stretch.used[:, None, None]
+    acting[:, axis] = within
+    answers = response.errors(acting)
+    slopes = answers / sigma[:, None] * view.stretch.used[:, None, None]
     known = np.sum(slopes**2, axis=(0, 1))
     with np.errstate(divide='ignore', invalid='ignore'):
-        force = -np.einsum('kaq,ka->q', slopes, view.innovation / sigma) / known
-        return np.nan_to_num(force), known**-0.5
-
-
-def _is_within(view: View, middle: float) -> NDArray[np.bool_]:
-    """Say of each sample whether it lies in the window around a time [s]."""
-    return np.asarray(np.abs(view.stretch.time - middle) <= 0.5 * WINDOW)
+        told = np.nan_to_num(-np.einsum('kaq,ka->q', slopes, view.innovation / sigma) / known)
+        error = known**-0.5
+    disturbance = view.prediction.disturbance[:, axis, None]
+    followed = disturbance + told * response.followed(answers)[:, axis]
+    return told + np.mean(followed, axis=0, where=within), error
