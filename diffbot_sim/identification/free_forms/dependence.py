@@ -22,8 +22,8 @@ from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.statistics.gains import THRICE_CHANCE, folds_chance
 from diffbot_sim.identification.statistics.memory import fall_of_deviance
 from diffbot_sim.identification.statistics.minimisation import Prior, derivatives, minimise
-from diffbot_sim.identification.statistics.projection import Projection
-from diffbot_sim.identification.statistics.robust import huber, influence
+from diffbot_sim.identification.statistics.projection import apart
+from diffbot_sim.identification.statistics.robust import huber
 from diffbot_sim.records import Array
 
 # Evaluations of a fit of a free form, and shares of what first order promises at which it begins.
@@ -110,6 +110,8 @@ def realised(fit: Fit, like: Dependence) -> Dependence:
     slopes, rest = (basis.parted(rows, fit.stretches) for rows in (jacobian, left.ravel()))
     information = prior.deviation**-2.0
     joint = sandwich(slopes, rest, information)[size:, size:]
+    # Around the model without it a robot that waits at another place seems to deny what made it.
+    without = apart(rest, slopes[:, :size], slopes[:, size:], point[size:])
     return Dependence(
         basis,
         fall=max(float(huber(fit.whitened).sum() - huber(left).sum()), 0.0),
@@ -118,21 +120,8 @@ def realised(fit: Fit, like: Dependence) -> Dependence:
         adaptation=(point - start)[:size],
         spread=sandwich(slopes[:, size:], rest, information[size:]),
         p_block=_of_best(basis, wald_p(point[size:], joint)),
-        p_folds=_folds_chance(slopes, rest, point[size:]),
+        p_folds=folds_chance(*without, THRICE_CHANCE),
     )
-
-
-def _folds_chance(slopes: Array, errors: Array, amounts: Array) -> float:
-    """Return the chance of what amounts from other parts predict of each part of the runs.
-
-    To first order around where they were fitted, slopes of shape (n, p), theirs the last: around
-    the model without them a robot that waits at another place, or starts earlier, seems to deny
-    what made it.
-    """
-    size = slopes.shape[1] - len(amounts)
-    free = Projection(slopes[:, :size])
-    columns, left = free.rest(slopes[:, size:]), free.rest(influence(errors)).ravel()
-    return folds_chance(left - columns @ amounts, columns, THRICE_CHANCE)
 
 
 def against_the_model(fit: Fit, dependence: Dependence) -> Dependence:

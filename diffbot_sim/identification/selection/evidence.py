@@ -15,7 +15,7 @@ from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.gains import block_gain, folds_chance
 from diffbot_sim.identification.statistics.guards import AGAINST, best_look, elsewhere
 from diffbot_sim.identification.statistics.memory import fall_of_deviance, falls_beyond_past
-from diffbot_sim.identification.statistics.projection import Projection
+from diffbot_sim.identification.statistics.projection import apart
 from diffbot_sim.identification.statistics.robust import huber, influence
 from diffbot_sim.records import Array
 
@@ -185,10 +185,9 @@ def beside_others(
     To first order around the fit; of both is taken out what else is free but the shapes.
     """
     jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
-    free = Projection(np.delete(jacobian, [*amounts, *shapes], axis=1))
-    columns, errors = free.rest(jacobian[:, amounts]), free.rest(influence(fit.whitened)).ravel()
+    free = np.delete(jacobian, [*amounts, *shapes], axis=1)
     departure = (fit.u - fit.space.prior())[amounts]
-    return errors - columns @ departure, columns
+    return apart(fit.whitened, free, jacobian[:, amounts], departure)
 
 
 def sandwich(jacobian: Array, errors: Array, known: Array) -> Array:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from diffbot_sim.identification.statistics.robust import influence
 from diffbot_sim.records import Array
 
 # Columns shorter than this say nothing.
@@ -20,3 +21,14 @@ class Projection:
         """Return what is left of values whose first axes hold n samples, in the same shape."""
         flat = values.reshape(self._basis.shape[0], -1)
         return np.asarray(flat - self._basis @ (self._basis.T @ flat)).reshape(values.shape)
+
+
+def apart(errors: Array, free: Array, columns: Array, amounts: Array) -> tuple[Array, Array]:
+    """Return errors as they are without some amounts, (n,), and their derivatives, (n, q).
+
+    To first order around whitened errors that have them; of both is taken out what is free.
+    free, shape (n, p), columns, shape (n, q): derivatives by what is free, and by the amounts.
+    """
+    projection = Projection(free)
+    columns, left = projection.rest(columns), projection.rest(influence(errors)).ravel()
+    return left - columns @ amounts, columns
