@@ -5,7 +5,10 @@ from dataclasses import replace
 from diffbot_sim.control.rehearsal import Surroundings, rehearse
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
+from diffbot_sim.identification.free_forms.dependence import Dependence
+from diffbot_sim.identification.free_forms.structure import find_dependences
 from diffbot_sim.identification.recordings.stretches import Stretch, split
+from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.physics import Model
 from diffbot_sim.records import Array, Commands, Run
 
@@ -17,6 +20,12 @@ def fitted(run: Run, declared: Model | None = None) -> tuple[Fit, tuple[Stretch,
     learned, held_out = split([run])
     space = Space(declared or Model(), ())
     return fit_prediction(space, learned, space.prior(), FIRST_GAINS), held_out
+
+
+def left_by(run: Run, declared: Model | None = None) -> list[Dependence]:
+    """Return what a fit of a model, the plain one or another, leaves of a run."""
+    fit, held_out = fitted(run, declared)
+    return find_dependences(Screen(fit), held_out)
 
 
 def acted_otherwise(

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from math import cos, sin
 
-from fits import fitted
+from fits import left_by
 from peer_drives import DRIVES
 from peer_recording import Recording, record
 from peer_robots import MAKES, exact
@@ -11,8 +11,6 @@ from peer_robots import MAKES, exact
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.free_forms.dependence import Dependence
-from diffbot_sim.identification.free_forms.structure import find_dependences
-from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.parameters import parameter
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.compiled import compiled
@@ -45,9 +43,7 @@ def left_by_what_pulls(**pulls: float) -> list[Dependence]:
     """Return what the model that would be true without them leaves unexplained."""
     make, how = MAKES['medium'], Recording()
     drive = DRIVES['forces'](make, 0, how.duration, how.rate)
-    run = record(make.plant._replace(**pulls), drive, how, 0)
-    fit, held_out = fitted(run, exact(make.plant))
-    return find_dependences(Screen(fit), held_out)
+    return left_by(record(make.plant._replace(**pulls), drive, how, 0), exact(make.plant))
 
 
 def test_hills_are_unexplained_and_known_by_where_they_are() -> None:

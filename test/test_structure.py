@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from bristles import driven_on_bristles
-from fits import ROUGH, SMOOTH, acted_otherwise, fitted
+from fits import ROUGH, SMOOTH, acted_otherwise, fitted, left_by
 from peer_drives import DRIVES
 from peer_recording import Recording, record
 from peer_robots import MAKES, exact
@@ -23,20 +23,11 @@ from diffbot_sim.identification.free_forms.structure import dependences, find_de
 from diffbot_sim.identification.free_forms.warmth import lately
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.physics import Model, simulate
-from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
-from diffbot_sim.physics.effects.actuator_fade import ActuatorFade
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
-from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 from diffbot_sim.physics.effects.direction_dependent_friction import DirectionDependentFriction
 from diffbot_sim.physics.effects.transmission_loss import TransmissionLoss
 from diffbot_sim.physics.effects.yaw_friction import YawFriction
 from diffbot_sim.records import Commands, Run
-
-
-def left_by(run: Run) -> list[Dependence]:
-    """Return what a fit of the plain model leaves of a run."""
-    fit, held_out = fitted(run)
-    return find_dependences(Screen(fit), held_out)
 
 
 def test_rough_floor_alone_leaves_nothing_to_be_told() -> None:
@@ -103,7 +94,7 @@ def test_force_that_changes_only_so_fast_is_told_by_its_changes() -> None:
     force, most = drive.force.copy(), 30.0 * np.diff(drive.time)
     for k, change in enumerate(most, start=1):
         force[k] = force[k - 1] + np.clip(drive.force[k] - force[k - 1], -change, change)
-    result = identify([acted_otherwise(drive, force)], Model(), kinds=[ActuatorLag, ActuatorDelay])
+    result = identify([acted_otherwise(drive, force)], Model())
     assert result.effects == ()
     assert result.unexplained is not None
     assert result.unexplained.variable == 'force_change'
@@ -165,8 +156,7 @@ def test_push_that_comes_again_and_again_is_no_bias() -> None:
 def test_drive_of_a_wheel_that_pulses_is_told_with_its_period() -> None:
     drive = random_forces(3, 60.0, -9.0, 11.0)
     pulsing = np.column_stack([1.0 + 0.6 * np.sin(2.0 * np.pi * 2.5 * drive.time), drive.time**0])
-    pulsed = acted_otherwise(drive, drive.force * pulsing)
-    result = identify([pulsed], Model(), kinds=[ActuatorGain, ActuatorFade])
+    result = identify([acted_otherwise(drive, drive.force * pulsing)], Model())
     assert result.effects == ()
     assert result.unexplained is not None
     assert result.unexplained.variable == 'gain_rhythm'
