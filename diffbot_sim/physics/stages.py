@@ -125,17 +125,17 @@ def within(force: float, limit: float) -> float:
 
 @compiled
 def nearly_within(force: float, limit: float) -> float:
-    """Return a force [N] cut off at ±limit; at the limit itself 1 - 2^(-1/32), 2 %, is missing.
+    """Return a force [N] cut off at ±limit; at the limit itself 1 - 2^(-1/128), 0.5 %, is missing.
 
-    For limits that depend on the motion: a bend that is sharp there would cost the integrator its
-    order. Beyond four times or a quarter of the limit it is a sharp one, to the last bit.
+    For limits that depend on the motion: a corner there would cost the integrator its order, and
+    a wider bend what is identified its truth. Beyond 3/4 and 4/3 of the limit nothing is bent.
     """
     asked = abs(force) / limit
-    if asked <= 0.25:
+    if asked <= 3.0 / 4.0:
         return force
-    if asked >= 4.0:
+    if asked >= 4.0 / 3.0:
         return copysign(limit, force)
-    return force / (1.0 + asked**32) ** (1.0 / 32.0)
+    return force / (1.0 + asked**128) ** (1.0 / 128.0)
 
 
 @compiled
