@@ -106,3 +106,8 @@ def test_doubt_on_one_side_asks_for_certainty_on_the_other(
 
 def test_what_no_other_data_show_is_passing_however_sure_it_seems() -> None:
     assert not lasting(1e-12, 0.06)
+
+
+def test_where_blocks_cannot_tell_other_data_must_be_as_sure_as_both_would_be() -> None:
+    assert lasting(nan, 1e-3)
+    assert not lasting(nan, 0.01)

@@ -31,9 +31,9 @@ class Evidence:
     """A structure against the smaller one inside it.
 
     delta_bic: fall of the BIC; p_value: likelihood ratio; p_block: Wald test with the covariance
-    of blocks; held_out_gain: fall of the mean half squared error per held-out sample;
-    p_held_out: the chance of that, by signed ranks of blocks; p_folds: the same of parts of the
-    runs predicted from the others, nan where they prove nothing.
+    of blocks, nan where too few of them know of it; held_out_gain: fall of the mean half squared
+    error per held-out sample; p_held_out: the chance of that, by signed ranks of blocks; p_folds:
+    the same of parts of the runs predicted from the others, nan where they prove nothing.
     """
 
     delta_bic: float
@@ -223,6 +223,7 @@ def block_scores(jacobian: Array, errors: Array) -> Array:
 def wald(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
     """Return the block-robust p-value of some amounts being at their prior (neutral).
 
+    nan where fewer blocks know of them than it takes to tell how far they differ.
     shapes: what they were found with, and is held: without an amount it means nothing, and beside
     it the same data may allow twice the amount twice as late. How many were tried is counted by
     `Evidence.of_best`.
@@ -233,6 +234,8 @@ def wald(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
     spread = sandwich(jacobian[:, kept], fit.whitened.ravel(), fit.prior_information[kept])
     departure = (fit.u - fit.space.prior())[amounts]
     blocks = informative_blocks(jacobian[:, amounts])
+    if blocks < len(amounts) + 1.0:
+        return nan
     return wald_p(departure, spread[np.ix_(chosen, chosen)], blocks)
 
 
