@@ -105,7 +105,7 @@ def _payload_change(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {
         'load_mass': share * make.plant.mass,
         'load_inertia': [1.0, 0.6][c.law % 2] * share * make.plant.inertia,
-        'load_time': DURATION * (0.2 + 0.35 * c.share),
+        'load_time': DURATION * (0.2 + 0.5 * c.share),
         'load_friction': [0.0, 1.0][c.law % 2] * share,
     }
 

@@ -24,6 +24,8 @@ from diffbot_sim.records import Array
 COUNTED, MUCH_LARGER = -0.25, 0.05
 # Blocks that count as independent; each is much longer than any correlation of innovations.
 BLOCKS = 40
+# With fewer degrees of freedom the spread over blocks is no measure of chance.
+FEWEST = 8
 
 
 @dataclass(frozen=True)
@@ -223,7 +225,7 @@ def block_scores(jacobian: Array, errors: Array) -> Array:
 def wald(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
     """Return the block-robust p-value of some amounts being at their prior (neutral).
 
-    nan where fewer blocks know of them than it takes to tell how far they differ.
+    nan where too few blocks know of them to tell by how much they differ.
     shapes: what they were found with, and is held: without an amount it means nothing, and beside
     it the same data may allow twice the amount twice as late. How many were tried is counted by
     `Evidence.of_best`.
@@ -234,7 +236,7 @@ def wald(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
     spread = sandwich(jacobian[:, kept], fit.whitened.ravel(), fit.prior_information[kept])
     departure = (fit.u - fit.space.prior())[amounts]
     blocks = informative_blocks(jacobian[:, amounts])
-    if blocks < len(amounts) + 1.0:
+    if blocks < len(amounts) + FEWEST:
         return nan
     return wald_p(departure, spread[np.ix_(chosen, chosen)], blocks)
 
