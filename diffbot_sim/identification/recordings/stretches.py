@@ -16,7 +16,7 @@ HIGHEST_COMMAND_RATE = 200.0
 # Commands that are nearer than this share of their mean interval are of one moment.
 AT_ONCE = 0.1
 # Share of each run that is fitted when no run is given for validation.
-FITTED_SHARE = 0.8
+FITTED_SHARE = 0.7
 # What a start is estimated from, and what is left out of fits after it [s].
 START_WINDOW, SETTLING = 0.3, 0.5
 FEWEST_SAMPLES = 50

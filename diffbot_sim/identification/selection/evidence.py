@@ -33,7 +33,7 @@ class Evidence:
     """A structure against the smaller one inside it.
 
     delta_bic: fall of the BIC; p_value: likelihood ratio; p_block: Wald test with the covariance
-    of blocks, nan where too few of them know of it; held_out_gain: fall of the mean half squared
+    of blocks, nan where it began too late for that; held_out_gain: fall of the mean half squared
     error per held-out sample; p_held_out: the chance of that, by signed ranks of blocks; p_folds:
     the same of parts of the runs predicted from the others, nan where they prove nothing.
     """
@@ -73,13 +73,14 @@ def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
     ratio = likelihood_ratio(small, large)
     gain, chance = held_out_gain(small, large, held_out)
     amounts, shapes = _added(small, large)
+    of_time = _adds_law_of_time(small, large)
     return Evidence(
         delta_bic=ratio - _price(small, large, large.whitened.size),
         p_value=float(stats.chi2.sf(ratio, added)),
-        p_block=wald(large, amounts, shapes),
+        p_block=nan if of_time and began_late(large, amounts) else wald(large, amounts, shapes),
         held_out_gain=gain,
         p_held_out=chance,
-        p_folds=nan if _adds_law_of_time(small, large) else _folds_chance(large, amounts, shapes),
+        p_folds=nan if of_time else _folds_chance(large, amounts, shapes),
     )
 
 
@@ -225,7 +226,6 @@ def block_scores(jacobian: Array, errors: Array) -> Array:
 def wald(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
     """Return the block-robust p-value of some amounts being at their prior (neutral).
 
-    nan where too few blocks know of them to tell by how much they differ.
     shapes: what they were found with, and is held: without an amount it means nothing, and beside
     it the same data may allow twice the amount twice as late. How many were tried is counted by
     `Evidence.of_best`.
@@ -236,9 +236,13 @@ def wald(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
     spread = sandwich(jacobian[:, kept], fit.whitened.ravel(), fit.prior_information[kept])
     departure = (fit.u - fit.space.prior())[amounts]
     blocks = informative_blocks(jacobian[:, amounts])
-    if blocks < len(amounts) + FEWEST:
-        return nan
     return wald_p(departure, spread[np.ix_(chosen, chosen)], blocks)
+
+
+def began_late(fit: Fit, amounts: Sequence[int]) -> bool:
+    """Say whether too few blocks know of some amounts to tell what is chance."""
+    jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
+    return informative_blocks(jacobian[:, amounts]) < len(amounts) + FEWEST
 
 
 def informative_blocks(sensitivity: Array) -> float:
