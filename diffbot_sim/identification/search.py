@@ -12,6 +12,8 @@ from diffbot_sim.identification.fitting.filtering import filter_behind, unfilter
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.fitting.shaking import shaken
+from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
+from diffbot_sim.identification.later import sets_in_later
 from diffbot_sim.identification.leading import acted_before, lead_of
 from diffbot_sim.identification.older import Ages, Older, is_beyond_doubt, is_taken
 from diffbot_sim.identification.recordings.lateness import half_interval, timely, timing
@@ -87,7 +89,8 @@ def search(
     Raises DataError where the runs are too short or do not move.
     """
     found = _settled(_timed(recordings, declared, kinds, progress), progress)
-    return _led(found, declared, kinds, progress)
+    found = _led(found, declared, kinds, progress)
+    return _begun_later(found, declared, kinds, progress)
 
 
 def _settled(found: Found, progress: Progress) -> Found:
@@ -161,6 +164,31 @@ def _led(
     if other.unexplained or not (found.unexplained or other.names <= found.names):
         return found
     return replace(other, lead=lead, time_constant=found.time_constant, undecided=found.undecided)
+
+
+def _begun_later(
+    found: Found, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
+) -> Found:
+    """Search again with less held out, where something seems to begin in that alone."""
+    if not _begins_later(found, kinds):
+        return found
+    progress('holding out less, since something begins there')
+    less = found.recordings.less_held_out
+    other = _settled(_search(less, declared, kinds, progress), progress)
+    if other.unexplained or other.names <= found.names:
+        return found
+    return replace(
+        other, time_constant=found.time_constant, undecided=found.undecided, lead=found.lead
+    )
+
+
+def _begins_later(found: Found, kinds: Sequence[type[Effect]]) -> bool:
+    final = found.selection.final
+    if found.recordings.validate:
+        return False
+    if found.unexplained is not None:
+        return moves_otherwise(final, found.held_out) is not None
+    return sets_in_later(final, found.recordings, kinds)
 
 
 def _search(

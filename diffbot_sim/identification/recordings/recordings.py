@@ -1,25 +1,40 @@
 """The recordings of one robot: what is learned from, and what is held out."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from diffbot_sim.identification.recordings.stretches import Stretch, split, whole
+from diffbot_sim.identification.recordings.stretches import (
+    FITTED_SHARE,
+    LARGER_SHARE,
+    Stretch,
+    split,
+    whole,
+)
 from diffbot_sim.records import Run
 
 
 @dataclass(frozen=True)
 class Recordings:
-    """Runs to learn from; runs to validate with, or none: then parts of the first are held out."""
+    """Runs to learn from; runs to validate with, or none: then parts of the first are held out.
+
+    share: what is fitted of each run then.
+    """
 
     learned: tuple[Run, ...]
     validate: tuple[Run, ...]
+    share: float = FITTED_SHARE
 
     @property
     def divided(self) -> tuple[tuple[Stretch, ...], tuple[Stretch, ...]]:
         """The stretches that are fitted, and those that are held out."""
         if self.validate:
             return whole(self.learned), whole(self.validate)
-        return split(self.learned)
+        return split(self.learned, self.share)
+
+    @property
+    def less_held_out(self) -> 'Recordings':
+        """The same, with less of each run held out, where no run is to validate with."""
+        return replace(self, share=LARGER_SHARE)
 
     @property
     def all(self) -> tuple[Run, ...]:
@@ -28,4 +43,5 @@ class Recordings:
 
     def each(self, change: Callable[[Run], Run]) -> 'Recordings':
         """Return the recordings with each run changed."""
-        return Recordings(tuple(map(change, self.learned)), tuple(map(change, self.validate)))
+        learned, validate = (tuple(map(change, runs)) for runs in (self.learned, self.validate))
+        return replace(self, learned=learned, validate=validate)

@@ -15,8 +15,9 @@ HIGHEST_RATE = 100.0
 HIGHEST_COMMAND_RATE = 200.0
 # Commands that are nearer than this share of their mean interval are of one moment.
 AT_ONCE = 0.1
-# Share of each run that is fitted when no run is given for validation.
-FITTED_SHARE = 0.7
+# Shares of each run that are fitted when no run is given for validation: at first, and where
+# something begins in the rest.
+FITTED_SHARE, LARGER_SHARE = 0.7, 0.85
 # What a start is estimated from, and what is left out of fits after it [s].
 START_WINDOW, SETTLING = 0.3, 0.5
 FEWEST_SAMPLES = 50
@@ -65,11 +66,13 @@ def whole(runs: Sequence[Run]) -> tuple[Stretch, ...]:
     return tuple(_stretch(run, 0.0, 1.0) for run in map(thin, runs))
 
 
-def split(runs: Sequence[Run]) -> tuple[tuple[Stretch, ...], tuple[Stretch, ...]]:
-    """Return the first part of each run, to be fitted, and the rest, held out."""
+def split(
+    runs: Sequence[Run], share: float = FITTED_SHARE
+) -> tuple[tuple[Stretch, ...], tuple[Stretch, ...]]:
+    """Return the first share of each run, to be fitted, and the rest, held out."""
     thinned = [thin(run) for run in runs]
-    fitted = tuple(_stretch(run, 0.0, FITTED_SHARE) for run in thinned)
-    held_out = tuple(_stretch(run, FITTED_SHARE, 1.0) for run in thinned)
+    fitted = tuple(_stretch(run, 0.0, share) for run in thinned)
+    held_out = tuple(_stretch(run, share, 1.0) for run in thinned)
     return fitted, held_out
 
 
