@@ -19,9 +19,11 @@ def sets_in_later(fit: Fit, recordings: Recordings, kinds: Sequence[type[Effect]
 
     kinds: those that may be missing; only those that set in at a moment are asked.
     """
+    missing = [k for k in kinds if k.onset is not None and k not in fit.space.kinds]
+    if not missing:
+        return False
     longer, _ = recordings.less_held_out.divided
     screen = Screen(replace(fit, stretches=restarted(fit.model, longer, MAX_STEP)))
-    missing = [k for k in kinds if k.onset is not None and k not in fit.space.kinds]
     return any(_seems_to_act(screen, kind, len(missing)) for kind in missing)
 
 
