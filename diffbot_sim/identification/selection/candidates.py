@@ -37,9 +37,17 @@ def approach(screen: Screen, kind: type[Effect], score: Score) -> Fit:
 
 
 def complete(near: Fit) -> Fit:
-    """Fit to the end what was approached: first with the noise model held, then with all."""
+    """Fit to the end what was approached: first with the noise model held, then with all.
+
+    Where a noise model made up for what was missing, the fit may stay with it although another one
+    is far better now: so a second fit begins with the first noise model of all.
+    """
     held = fit_with_noise_held(near.space, near.stretches, near.u, near.gains)
-    return fit_prediction(near.space, near.stretches, held.u, held.gains)
+    first, other = (
+        fit_prediction(near.space, near.stretches, held.u, gains)
+        for gains in (held.gains, FIRST_GAINS)
+    )
+    return other if other.deviance(first.sigma) < first.deviance(first.sigma) else first
 
 
 def begun_anew(fit: Fit) -> Fit:
