@@ -33,7 +33,7 @@ STOREYS: list[set[str]] = [
     {'fitting'},
     {'selection'},
     {'free_forms', 'conclusions'},
-    {'doubt', 'older', 'leading'},
+    {'doubt', 'older', 'leading', 'later'},
     {'search'},
     {'identify'},
 ]

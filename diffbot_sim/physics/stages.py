@@ -124,18 +124,19 @@ def within(force: float, limit: float) -> float:
 
 
 @compiled
-def nearly_within(force: float, limit: float) -> float:
-    """Return a force [N] cut off at ±limit; at the limit itself 1 - 2^(-1/128), 0.5 %, is missing.
+def nearly_within(force: float, limit: float, bend: int) -> float:
+    """Return a force [N] cut off at ±limit; at the limit itself 1 - 2^(-1/bend) of it is missing.
 
     For limits that depend on the motion: a corner there would cost the integrator its order, and
-    a wider bend what is identified its truth. Beyond 3/4 and 4/3 of the limit nothing is bent.
+    a wide bend what is identified its truth. Beyond four times or a quarter of the limit a bend
+    of 32 or more is a corner, to the last bit.
     """
     asked = abs(force) / limit
-    if asked <= 3.0 / 4.0:
+    if asked <= 0.25:
         return force
-    if asked >= 4.0 / 3.0:
+    if asked >= 4.0:
         return copysign(limit, force)
-    return force / (1.0 + asked**128) ** (1.0 / 128.0)
+    return force / (1.0 + asked**bend) ** (1.0 / bend)
 
 
 @compiled
