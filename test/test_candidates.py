@@ -3,11 +3,11 @@
 from dataclasses import replace
 
 import numpy as np
-import pytest
 from fits import fitted
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.selection.candidates import approach, complete
+from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.direction_dependent_friction import DirectionDependentFriction
@@ -23,4 +23,4 @@ def test_fit_does_not_stay_with_a_noise_model_that_made_up_for_what_was_missing(
     screen = Screen(fit)
     near = approach(screen, DirectionDependentFriction, screen.score(DirectionDependentFriction))
     ends = [complete(start).deviance(fit.sigma) for start in (near, replace(near, gains=SLOW))]
-    assert ends[1] == pytest.approx(ends[0], abs=0.5)
+    assert ends[1] < ends[0] + INDISTINGUISHABLE
