@@ -13,7 +13,6 @@ from diffbot_sim.identification.fitting.fit import (
 )
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.start import restarted
-from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE
 from diffbot_sim.identification.selection.screening import Score, Screen
 from diffbot_sim.identification.statistics.robust import scale_of
 from diffbot_sim.physics.effects import Effect
@@ -38,19 +37,9 @@ def approach(screen: Screen, kind: type[Effect], score: Score) -> Fit:
 
 
 def complete(near: Fit) -> Fit:
-    """Fit to the end what was approached: first with the noise model held, then with all.
-
-    Where a noise model made up for what was missing, the fit may stay with it although another one
-    is far better now: so a second fit begins with the first noise model of all, and is taken if it
-    ends clearly lower.
-    """
+    """Fit to the end what was approached: first with the noise model held, then with all."""
     held = fit_with_noise_held(near.space, near.stretches, near.u, near.gains)
-    first, other = (
-        fit_prediction(near.space, near.stretches, held.u, gains)
-        for gains in (held.gains, FIRST_GAINS)
-    )
-    gained = first.deviance(first.sigma) - other.deviance(first.sigma)
-    return other if gained > INDISTINGUISHABLE else first
+    return fit_prediction(near.space, near.stretches, held.u, held.gains)
 
 
 def begun_anew(fit: Fit) -> Fit:

@@ -1,6 +1,5 @@
 """Rivals: structures that are fitted for as long as they may come up to another one."""
 
-from dataclasses import replace
 from math import inf
 
 from diffbot_sim.identification.fitting.fit import ROUNDS, Fit, fit_prediction
@@ -13,12 +12,8 @@ CATCHING_UP = 0.1
 
 
 def comes_up(rival: Fit, best: Fit) -> bool:
-    """Fit a rival that was approached for as long as it may come up to the best; say if it did.
-
-    From whichever noise model errs less: that of the best need not make up for what is missing.
-    """
-    other = replace(rival, gains=best.gains)
-    rival, behind = min(rival, other, key=lambda fit: fit.deviance(best.sigma)), inf
+    """Fit a rival that was approached for as long as it may come up to the best; say if it did."""
+    behind = inf
     for _ in range(ROUNDS):
         rival = fit_prediction(rival.space, rival.stretches, rival.u, rival.gains, rounds=1)
         before, behind = behind, delta_bic(rival, best)
