@@ -201,7 +201,7 @@ def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
     # To first order, as the free forms: both sides of the comparison err alike.
     named = max(worth, *(screen.score(kind).ratio for kind in kinds))
-    named -= sum(len(kind.specs()) for kind in kinds) * float(np.log(rest.whitened.size))
+    named -= sum(map(screen.price, kinds))
     best = dependences(screen)[0]
     if worth_of(best, rest) < named + OUTDONE or best.p_block > BLOCK_LEVEL:
         return None

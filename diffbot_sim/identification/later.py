@@ -1,14 +1,10 @@
 """What sets in where runs are held out: it is seen there, but fitted only where less is."""
 
 from collections.abc import Sequence
-from dataclasses import replace
-
-import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.recordings import Recordings
-from diffbot_sim.identification.recordings.start import restarted
+from diffbot_sim.identification.selection.candidates import on_recordings
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.statistics.guards import may_be_chance
 from diffbot_sim.physics.effects import Effect
@@ -22,12 +18,10 @@ def sets_in_later(fit: Fit, recordings: Recordings, kinds: Sequence[type[Effect]
     missing = [k for k in kinds if k.onset is not None and k not in fit.space.kinds]
     if not missing:
         return False
-    longer, _ = recordings.less_held_out.divided
-    screen = Screen(replace(fit, stretches=restarted(fit.model, longer, MAX_STEP)))
+    screen = Screen(on_recordings(fit, recordings.less_held_out))
     return any(_seems_to_act(screen, kind, len(missing)) for kind in missing)
 
 
 def _seems_to_act(screen: Screen, kind: type[Effect], tried: int) -> bool:
     score = screen.score(kind)
-    price = len(kind.specs()) * float(np.log(screen.fit.whitened.size))
-    return not may_be_chance(score.p_value, score.ratio - price, tried)
+    return not may_be_chance(score.p_value, score.ratio - screen.price(kind), tried)

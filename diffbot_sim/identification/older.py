@@ -1,12 +1,10 @@
 """Twists that may be older than their stamps: means since the sample before, as encoders give."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import cached_property, partial
 from typing import NamedTuple
 
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
-from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.lateness import (
     LATE,
     LATE_EFFECTS,
@@ -19,9 +17,13 @@ from diffbot_sim.identification.recordings.lateness import (
     speed_of_interval_before,
 )
 from diffbot_sim.identification.recordings.recordings import Recordings
-from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import median_interval
-from diffbot_sim.identification.selection.candidates import approach, complete, reduce
+from diffbot_sim.identification.selection.candidates import (
+    approach,
+    complete,
+    on_recordings,
+    reduce,
+)
 from diffbot_sim.identification.selection.evidence import (
     delta_bic,
     delta_bic_beyond_past,
@@ -101,7 +103,7 @@ class Ages:
     def _taken(self) -> list[tuple[Older, Fit]]:
         """The structure as it was found, on twists that are taken as older, if poses allow it."""
         return [
-            (older, _on(self._final, self._recordings.each(older.taken)))
+            (older, on_recordings(self._final, self._recordings.each(older.taken)))
             for older in OLDER
             if all(pose_allows_lag(run, older.of) for run in self._recordings.learned)
         ]
@@ -136,7 +138,7 @@ def is_beyond_doubt(
 
 def _late_as_stamped(final: Fit, recordings: Recordings, kinds: Sequence[type[Effect]]) -> Fit:
     """Fit a structure to twists as they are stamped, and a robot that is late besides."""
-    taken = _on(final, recordings)
+    taken = on_recordings(final, recordings)
     fit = fit_prediction(taken.space, taken.stretches, taken.u, taken.gains)
     late = [k for k in kinds if k.name in LATE_EFFECTS and k not in fit.space.kinds]
     screen = Screen(fit)
@@ -152,12 +154,6 @@ def _ways_late(fit: Fit) -> int:
 
 def _lateness(fit: Fit) -> float:
     return lateness_of(fit.space.values(fit.u))
-
-
-def _on(final: Fit, recordings: Recordings) -> Fit:
-    """Return a structure as it was found, on other recordings."""
-    fitted, _ = recordings.divided
-    return replace(final, stretches=restarted(final.model, fitted, MAX_STEP))
 
 
 def _timely(fit: Fit) -> Fit:

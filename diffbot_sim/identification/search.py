@@ -68,6 +68,15 @@ class Found:
         """The effects that were found."""
         return frozenset(self.selection.support)
 
+    def timed_like(self, other: 'Found') -> 'Found':
+        """Return the same, its recordings taken to be timed as those of another search."""
+        return replace(
+            self,
+            time_constant=other.time_constant,
+            undecided=other.undecided,
+            lead=other.lead,
+        )
+
     def timings(self, given: Recordings) -> tuple[Timing, ...]:
         """Return how recordings were taken otherwise than they had been given."""
         leads = (Timing(run.name, self.lead, 'force') for run in given.all if self.lead > 0.0)
@@ -84,8 +93,9 @@ class Found:
 def search(
     recordings: Recordings, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
 ) -> Found:
-    """Search the structures made of these effects; ask whether twists or forces are stamped late.
+    """Search the structures made of these effects.
 
+    Asks, too, whether twists or forces are stamped late, and what begins where runs are held out.
     Raises DataError where the runs are too short or do not move.
     """
     found = _settled(_timed(recordings, declared, kinds, progress), progress)
@@ -163,7 +173,7 @@ def _led(
     other = _settled(_search(led, declared, kinds, progress), progress)
     if other.unexplained or not (found.unexplained or other.names <= found.names):
         return found
-    return replace(other, lead=lead, time_constant=found.time_constant, undecided=found.undecided)
+    return replace(other.timed_like(found), lead=lead)
 
 
 def _begun_later(
@@ -177,9 +187,7 @@ def _begun_later(
     other = _settled(_search(less, declared, kinds, progress), progress)
     if other.unexplained or other.names <= found.names:
         return found
-    return replace(
-        other, time_constant=found.time_constant, undecided=found.undecided, lead=found.lead
-    )
+    return other.timed_like(found)
 
 
 def _begins_later(found: Found, kinds: Sequence[type[Effect]]) -> bool:

@@ -1,5 +1,7 @@
 """Candidates: every effect is tried, and fitted jointly with the nominal parameters."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from diffbot_sim.identification.fitting.coordinates import Space
@@ -12,6 +14,7 @@ from diffbot_sim.identification.fitting.fit import (
     whitened,
 )
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
+from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.selection.screening import Score, Screen
 from diffbot_sim.identification.statistics.robust import scale_of
@@ -46,6 +49,12 @@ def begun_anew(fit: Fit) -> Fit:
     """Fit again from the first states that this model finds best: a poorer one misjudged them."""
     stretches = restarted(fit.model, fit.stretches, MAX_STEP)
     return fit_prediction(fit.space, stretches, fit.u, fit.gains)
+
+
+def on_recordings(fit: Fit, recordings: Recordings) -> Fit:
+    """Return a structure as it was fitted, on other recordings."""
+    fitted, _ = recordings.divided
+    return replace(fit, stretches=restarted(fit.model, fitted, MAX_STEP))
 
 
 def reduce(fit: Fit, name: str) -> Fit:

@@ -77,7 +77,7 @@ def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
     return Evidence(
         delta_bic=ratio - _price(small, large, large.whitened.size),
         p_value=float(stats.chi2.sf(ratio, added)),
-        p_block=nan if of_time and began_late(large, amounts) else wald(large, amounts, shapes),
+        p_block=nan if of_time and _began_late(large, amounts) else wald(large, amounts, shapes),
         held_out_gain=gain,
         p_held_out=chance,
         p_folds=nan if of_time else _folds_chance(large, amounts, shapes),
@@ -239,7 +239,7 @@ def wald(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
     return wald_p(departure, spread[np.ix_(chosen, chosen)], blocks)
 
 
-def began_late(fit: Fit, amounts: Sequence[int]) -> bool:
+def _began_late(fit: Fit, amounts: Sequence[int]) -> bool:
     """Say whether too few blocks know of some amounts to tell what is chance."""
     jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
     return informative_blocks(jacobian[:, amounts]) < len(amounts) + FEWEST

@@ -84,6 +84,10 @@ class Screen:
         fall = float(errors @ errors - np.sum((errors + flat @ amount) ** 2))
         return fall, np.asarray(amount), flat
 
+    def price(self, kind: type[Effect]) -> float:
+        """Return what the parameters of an effect cost in BIC."""
+        return len(kind.specs()) * float(np.log(self.fit.whitened.size))
+
     def score(self, kind: type[Effect]) -> Score:
         """Try small amounts of an effect, in each of its shapes, and its starts as they stand."""
         if kind not in self._scores:

@@ -4,7 +4,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import nan
 
-import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.fitting.fit import Fit
@@ -129,7 +128,7 @@ def _approached(screen: Screen, kind: type[Effect], score: Score, progress: Prog
 def _completed(
     screen: Screen, approached: _Approach, held_out: Sequence[Stretch], tried: int
 ) -> Trial:
-    kind, fall, price = approached.kind, approached.fall, _price(screen, approached.kind)
+    kind, fall, price = approached.kind, approached.fall, screen.price(approached.kind)
     if fall < HOPEFUL * price and approached.score.ratio < price:
         return _not_fitted(screen, kind, fall, CHANCE)
     fit = complete(approached.near)
@@ -154,12 +153,7 @@ def _not_fitted(screen: Screen, kind: type[Effect], fall: float, outcome: str) -
 
 def _first_order(screen: Screen, kind: type[Effect], fall: float, p_value: float) -> Evidence:
     """Return the evidence of what was not fitted to the end."""
-    return Evidence(fall - _price(screen, kind), p_value, nan, nan, nan, nan)
-
-
-def _price(screen: Screen, kind: type[Effect]) -> float:
-    """Return what the parameters of an effect cost in BIC."""
-    return len(kind.specs()) * float(np.log(screen.fit.whitened.size))
+    return Evidence(fall - screen.price(kind), p_value, nan, nan, nan, nan)
 
 
 def judge(evidence: Evidence, tried: int) -> str:
