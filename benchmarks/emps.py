@@ -97,6 +97,17 @@ def benchmark(data: Path, out: Path) -> dict[str, Any]:
     return results
 
 
+def asked_axes(description: str) -> tuple[Axis, Axis]:
+    """Return both files of the folder that the command line names; exits where one is missing."""
+    parser = ArgumentParser(description=description.splitlines()[0])
+    parser.add_argument('--data', type=Path, default=MEASURED, metavar='DIR')
+    folder = parser.parse_args().data / 'emps'
+    try:
+        return read_axis(folder / TRAIN), read_axis(folder / TEST)
+    except DataError as problem:
+        sys.exit(f'error: {problem}')
+
+
 def read_axis(path: Path) -> Axis:
     """Read one of the benchmark's files; raises DataError where it is missing."""
     if not path.exists():

@@ -7,16 +7,12 @@ The benchmark judges position, which integrates every small error of speed. So t
 the first fit is turned on its own until the test file is met best.
 """
 
-import sys
-from argparse import ArgumentParser
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
-from emps import DECLARED, GIVEN, MEASURED, TEST, TRAIN, Axis, first_state, read_axis
+from emps import DECLARED, GIVEN, Axis, asked_axes, first_state
 from scipy.optimize import brute, least_squares
 
-from diffbot_sim.errors import DiffbotError
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.physics import Model, simulate
 from diffbot_sim.physics.effects import library
@@ -113,19 +109,6 @@ def tables(space: Space, train: Axis, test: Axis) -> str:
     return '\n'.join([*lines, '', one_by_one(space.model(points['training file']), test)])
 
 
-def main() -> int:
-    """Print the table; 1 when the data are not there."""
-    parser = ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument('--data', type=Path, default=MEASURED, metavar='DIR')
-    folder = parser.parse_args().data / 'emps'
-    try:
-        train, test = read_axis(folder / TRAIN), read_axis(folder / TEST)
-    except DiffbotError as problem:
-        print('error:', problem, file=sys.stderr)
-        return 1
-    print(tables(Space(DECLARED, tuple(library()[name] for name in EFFECTS)), train, test))
-    return 0
-
-
 if __name__ == '__main__':
-    sys.exit(main())
+    space = Space(DECLARED, tuple(library()[name] for name in EFFECTS))
+    print(tables(space, *asked_axes(__doc__)))

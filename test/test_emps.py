@@ -19,8 +19,11 @@ needs_data = pytest.mark.skipif(
 
 
 def benchmark(data: Path, out: Path) -> subprocess.CompletedProcess[str]:
-    script = ROOT / 'benchmarks' / 'emps.py'
-    command = [sys.executable, str(script), '--data', str(data), '--out', str(out)]
+    return run('emps.py', '--data', str(data), '--out', str(out))
+
+
+def run(script: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, str(ROOT / 'benchmarks' / script), *arguments]
     environment = os.environ | {'PYTHONPATH': str(ROOT)}
     return subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
 
@@ -42,6 +45,16 @@ def test_the_worn_screw_is_found(results: Any) -> None:
 def test_position_simulated_from_the_force_alone_comes_much_nearer(results: Any) -> None:
     before, after = results['test']['recalibrated'], results['test']['identified']
     assert after['rmse_mm'] < 0.2 * before['rmse_mm']
+
+
+@needs_data
+def test_the_axis_rubs_more_in_the_file_that_judges() -> None:
+    done = run('emps_force.py', '--data', str(DATA))
+    assert done.returncode == 0, done.stderr
+    rows = (line.split('|') for line in done.stdout.splitlines())
+    viscous = [row[2:4] for row in rows if 'viscous' in row[1]]
+    assert len(viscous) == 2
+    assert all(1.03 < float(test) / float(train) < 1.05 for train, test in viscous)
 
 
 def test_missing_data_are_told_with_the_way_to_get_them(tmp_path: Path) -> None:

@@ -14,7 +14,8 @@ LIKELIHOOD_LEVEL, BLOCK_LEVEL, ELSEWHERE_LEVEL = 1e-3, 1e-2, 0.05
 EITHER_LEVEL = 0.05
 BOTH_LEVEL = float(stats.combine_pvalues([BLOCK_LEVEL, ELSEWHERE_LEVEL]).pvalue)
 
-# Held-out data are a fifth of a run and know half as much as parts of the rest of it.
+# Held-out data are three tenths of a run, or less, and know about half as much as parts of the
+# rest of it.
 WEIGHTS = (1.0, 2.0)
 # Signed ranks of twenty blocks are never surer than this.
 SUREST = 2.0**-20
