@@ -80,6 +80,15 @@ def test_force_that_is_always_there_is_told_to_depend_on_nothing() -> None:
     assert (left.basis.variable, left.basis.axis) == ('constant', 'v')
 
 
+def test_force_that_is_gone_where_data_are_held_out_is_told_all_the_same() -> None:
+    drive = random_forces(3, 60.0, -9.0, 11.0)
+    bent = 0.03 * drive.force * np.abs(drive.force)
+    fit, _ = fitted(acted_otherwise(drive, drive.force - bent, ROUGH))
+    _, held_out = fitted(acted_otherwise(drive, drive.force + bent, ROUGH))
+    found = find_dependences(Screen(fit), held_out)
+    assert 'wheel_force' in {dependence.basis.variable for dependence in found}
+
+
 def test_forces_in_steps_are_told_with_the_step() -> None:
     time = np.arange(0.0, 60.0, 0.02)
     waves = [np.sin(np.outer(time, rates)).sum(axis=1) for rates in ((0.7, 1.9), (0.9, 2.3))]

@@ -3,7 +3,7 @@
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.composition import Laws
 from diffbot_sim.physics.instant import Inputs, Instant
-from diffbot_sim.physics.kinematics import body_twist
+from diffbot_sim.physics.kinematics import body_twist, wheel_speeds
 from diffbot_sim.physics.stages import Motion
 from diffbot_sim.records import Array
 
@@ -11,7 +11,7 @@ from diffbot_sim.records import Array
 X, Y, HEADING, ANGLE_RIGHT, ANGLE_LEFT, SPEED_RIGHT, SPEED_LEFT = range(7)
 STATE_SIZE = 7
 
-_of_body = compiled(body_twist)
+_of_body, _of_wheels = compiled(body_twist), compiled(wheel_speeds)
 
 
 @compiled
@@ -31,6 +31,13 @@ def twist_of(params: Array, z: Array) -> tuple[float, float]:
 def way_of(params: Array, z: Array) -> tuple[float, float]:
     """Return way [m] and turn [rad] since the wheels stood at angle 0."""
     return _of_body(params[3] * z[ANGLE_RIGHT], params[3] * z[ANGLE_LEFT], params[2])
+
+
+@compiled
+def roll(params: Array, z: Array, way: float, turn: float) -> None:
+    """Turn the wheels to where they stand after a way [m] and a turn [rad]."""
+    right, left = _of_wheels(way, turn, params[2])
+    z[ANGLE_RIGHT], z[ANGLE_LEFT] = right / params[3], left / params[3]
 
 
 @compiled

@@ -15,7 +15,7 @@ from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.predictor import MAX_STEP, predict
 from diffbot_sim.identification.recordings.measurement import simulated
 from diffbot_sim.identification.recordings.start import WINDOW
-from diffbot_sim.identification.recordings.stretches import Stretch, integral
+from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Errors, Horizon
 from diffbot_sim.identification.statistics.norms import norm
 from diffbot_sim.physics.model import Model
@@ -95,8 +95,7 @@ def _errors(models: Sequence[Model], final: Fit, stretch: Stretch, spacing: floa
 
 def state_at(stretch: Stretch, speeds: Array, moment: int) -> State:
     """Return the state at a sample: speeds as given, place and heading as measured."""
-    time, twist = stretch.time[: moment + 1], stretch.twist[: moment + 1]
-    travelled, turned = (integral(time, rate)[-1] for rate in twist.T)
+    travelled, turned = stretch.way[moment]
     x, y = (0.0, 0.0) if stretch.pose is None else stretch.pose[moment, :2]
     return State(
         x=float(x),
@@ -104,6 +103,6 @@ def state_at(stretch: Stretch, speeds: Array, moment: int) -> State:
         heading=float(stretch.heading[moment]),
         v=float(speeds[moment, 0]),
         omega=float(speeds[moment, 1]),
-        travelled=stretch.start.travelled + float(travelled),
-        turned=stretch.start.turned + float(turned),
+        travelled=float(travelled),
+        turned=float(turned),
     )

@@ -36,8 +36,7 @@ MEDIAN = 1.678
 
 def wheel_orders(seen: Sequence[View]) -> tuple[float, ...]:
     """Return the cycles per wheel revolution at which the innovations are strongest."""
-    angles, errors = _by_wheel(seen)
-    return _orders(angles, np.where(_senses(angles) != 0.0, errors, 0.0), 1)
+    return _orders(seen, np.abs(_senses(seen)), 1)
 
 
 def rubbing_orders(seen: Sequence[View], teeth: int) -> tuple[float, ...]:
@@ -45,23 +44,25 @@ def rubbing_orders(seen: Sequence[View], teeth: int) -> tuple[float, ...]:
 
     teeth: harmonics that are taken together.
     """
+    return _orders(seen, _senses(seen), teeth)
+
+
+def _senses(seen: Sequence[View]) -> Array:
+    """Return in which sense each wheel turned before a sample: 1, -1, or 0 where it rested."""
+    # What counts of a stretch begins later than its first sample.
+    speeds = [np.roll(view.wheel_speed, 1, axis=0) for view in seen]
+    return np.sign(np.concatenate(speeds))
+
+
+def _orders(seen: Sequence[View], senses: Array, teeth: int) -> tuple[float, ...]:
     angles, errors = _by_wheel(seen)
-    return _orders(angles, _senses(angles) * errors, teeth)
-
-
-def _senses(angles: Array) -> Array:
-    """Return in which sense each wheel turns: 1, -1, or 0 where it rests."""
-    return np.sign(np.diff(angles, axis=0, prepend=angles[:1]))
-
-
-def _orders(angles: Array, errors: Array, teeth: int) -> tuple[float, ...]:
-    steps = np.abs(np.diff(angles, axis=0))
-    usual = float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else 0.0
+    steps = np.abs(np.diff(angles, axis=0))[senses[1:] != 0.0]
+    usual = float(np.median(steps)) if len(steps) > 0 else 0.0
     if usual == 0.0:
         return ()
     spacing = 2.0 * np.pi / (FINENESS * float(np.ptp(angles, axis=0).max()))
     highest = min(HIGHEST, 2.0 * np.pi / (SAMPLES_PER_CYCLE * usual))
-    return _strongest((LOWEST, highest), max(spacing, 1e-4), angles, errors, teeth)
+    return _strongest((LOWEST, highest), max(spacing, 1e-4), angles, senses * errors, teeth)
 
 
 def rates(seen: Sequence[View]) -> tuple[float, ...]:

@@ -3,7 +3,8 @@
 Real robots meet forces that no model has (uneven floor). A pure simulation integrates them, so
 its error is strongly coloured and every test on it cries wolf. Here each odometry sample corrects
 speed and a disturbance force by a small gain; with the gains fitted the errors of the
-prediction are white. Gains 0 give the free-running simulation back.
+prediction are white. Gains 0 give the free-running simulation back. Heading and wheel angles are
+those measured: errors of speed would add up in them, and with them go slopes and ripples.
 """
 
 from dataclasses import dataclass
@@ -32,7 +33,7 @@ from diffbot_sim.physics.simulation import (
     workspace,
 )
 from diffbot_sim.physics.snapshot import keep, snapshot_size
-from diffbot_sim.physics.vector import HEADING, twist_of, way_of
+from diffbot_sim.physics.vector import HEADING, roll, twist_of, way_of
 from diffbot_sim.records import Array
 
 # Longest integration step [s]; fourth order keeps its error far below any odometry's noise.
@@ -77,6 +78,7 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
         np.ascontiguousarray(stretch.twist),
         np.array(stretch.run.odometry.means, dtype=float),
         stretch.heading,
+        np.ascontiguousarray(stretch.way),
         np.ascontiguousarray(gains),
         np.ascontiguousarray(stretch.pushes),
         *workspace(),
@@ -90,7 +92,7 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
     types.void(
         *FUNCTION_TYPES,
         *(ARRAY, ARRAY, ARRAY, ARRAY, MATRIX, types.float64),
-        *(ARRAY, MATRIX, ARRAY, ARRAY, ARRAY, MATRIX, INTEGERS, MATRIX, MATRIX, MATRIX),
+        *(ARRAY, MATRIX, ARRAY, ARRAY, MATRIX, ARRAY, MATRIX, INTEGERS, MATRIX, MATRIX, MATRIX),
     )
 )
 def _predict(  # type: ignore[no-untyped-def]
@@ -106,6 +108,7 @@ def _predict(  # type: ignore[no-untyped-def]
     twist,
     means,
     heading,
+    way,
     gains,
     push,
     modes,
@@ -148,6 +151,7 @@ def _predict(  # type: ignore[no-untyped-def]
             pushing += gains[1] * params[0] / interval * error_v
             turning += gains[4] * params[1] / interval * error_omega
         z[HEADING] = heading[k]
+        roll(params, z, way[k, 0], way[k, 1])
         out[k, 2], out[k, 3] = twist_of(params, z)
         out[k, 4], out[k, 5] = pushing, turning
         keep(z, modes, states, snapshots[k])

@@ -8,7 +8,7 @@ import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, predictions
 from diffbot_sim.identification.fitting.predictor import NO_GAIN, Prediction, predict
-from diffbot_sim.identification.recordings.stretches import Stretch, travel
+from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.records import Array
 
 
@@ -39,7 +39,7 @@ class View:
     def wheel_angle(self) -> Array:
         """Angles of the wheels [rad], shape (k, 2)."""
         radius = self.fit.model.robot.wheel_radius
-        return travel(self.stretch, self.prediction.twist) @ self.mix / radius
+        return np.asarray(self.stretch.way @ self.mix / radius)
 
     @cached_property
     def simulated(self) -> Array:

@@ -1,6 +1,7 @@
 """Structure that no effect accounts for: a force that depends on something, whatever its law."""
 
 from collections.abc import Sequence
+from math import isnan
 
 import numpy as np
 
@@ -37,6 +38,8 @@ from diffbot_sim.identification.statistics.robust import huber
 FOLLOWED = 6
 # A dependence explains almost as much as another with this share of its worth.
 ALMOST = 0.9
+# What lowers the BIC by more where it was fitted was there, though held-out data may lack it.
+FAR_BEYOND = 100.0
 FORCES = {
     'v': ('force along the robot', 'N'),
     'omega': ('torque', 'N·m'),
@@ -91,7 +94,16 @@ def _is_beyond_doubt(
         sure = dependence.p_folds <= BLOCK_LEVEL
         return sure and lasting(dependence.p_block, dependence.p_folds)
     held = _held_out_chance(screen.fit, dependence, held_out)
-    return lasting(dependence.p_block, elsewhere(held, dependence.p_folds))
+    if lasting(dependence.p_block, elsewhere(held, dependence.p_folds)):
+        return True
+    return _has_been_there(screen.fit, dependence)
+
+
+def _has_been_there(fit: Fit, dependence: Dependence) -> bool:
+    """Say whether a force was sure all along the fitted data: then it may have ended since."""
+    if isnan(dependence.p_folds) or not lasting(dependence.p_block, dependence.p_folds):
+        return False
+    return worth_of(against_the_model(fit, dependence), fit) > FAR_BEYOND
 
 
 def _may_be_chance(dependence: Dependence, fit: Fit, tried: int) -> bool:

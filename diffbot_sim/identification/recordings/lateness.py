@@ -14,6 +14,7 @@ from scipy.optimize import minimize_scalar
 
 from diffbot_sim.identification.recordings.smoothing import smoothed_over
 from diffbot_sim.identification.recordings.stretches import averaged, median_interval
+from diffbot_sim.identification.recordings.way import path_of
 from diffbot_sim.identification.result import Timing
 from diffbot_sim.identification.statistics.norms import white_noise
 from diffbot_sim.records import Array, Odometry, Run
@@ -156,10 +157,3 @@ def _misfit(odometry: Odometry, path: Array, of: Components, lag: float) -> _Mis
     errors = np.mean((twist - (after - before) / (2.0 * interval)) ** 2, axis=0) + TINY**2
     whole = np.mean(twist**2, axis=0) + TINY**2
     return _Misfit(len(at) * float(np.log(errors).sum()), float(np.sqrt(errors / whole).min()))
-
-
-def path_of(pose: Array) -> Array:
-    """Return way ahead [m] and heading [rad], shape (k, 2), from poses (k, 3)."""
-    step, middle = np.diff(pose, axis=0), 0.5 * (pose[1:, 2] + pose[:-1, 2])
-    ahead = step[:, 0] * np.cos(middle) + step[:, 1] * np.sin(middle)
-    return np.column_stack([np.concatenate([[0.0], np.cumsum(ahead)]), pose[:, 2]])

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from diffbot_sim.errors import DataError
+from diffbot_sim.identification.recordings.way import integral, measured_way
 from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array, Commands, Odometry, Run
 
@@ -32,7 +33,8 @@ class Stretch:
     """A part of a run with the commands of the whole run.
 
     time [s], shape (k,), counted from the start of the run; twist, shape (k, 2); heading [rad],
-    shape (k,), measured where a pose was recorded, otherwise the integral of ω; start: state at
+    shape (k,), measured where a pose was recorded, otherwise the integral of ω; way [m] and turn
+    [rad] since the wheels stood at angle 0, shape (k, 2), as measured_way tells; start: state at
     time[0]; used: samples that count in fits, shape (k,); push: a force [N] and torque [N·m] that
     acts on the body after each sample, shape (k, 2), none unless given.
     """
@@ -41,6 +43,7 @@ class Stretch:
     time: Array
     twist: Array
     heading: Array
+    way: Array
     pose: Array | None
     start: State
     used: Array
@@ -167,14 +170,15 @@ def _stretch(run: Run, begin: float, end: float) -> Stretch:
         )
     pose = None if odometry.pose is None else odometry.pose[part]
     heading = integral(time, twist[:, 1]) if pose is None else pose[:, 2]
-    travelled, turned = (integral(odometry.time, rate)[part][0] for rate in odometry.twist.T)
+    way = measured_way(odometry)[part]
+    travelled, turned = way[0]
     start = replace(
         _start(time, twist, pose, float(heading[0])),
         travelled=float(travelled),
         turned=float(turned),
     )
     used = ((time > time[0] + SETTLING) & _in_time(time)).astype(float)
-    return Stretch(run, time, twist, np.ascontiguousarray(heading), pose, start, used)
+    return Stretch(run, time, twist, np.ascontiguousarray(heading), way, pose, start, used)
 
 
 def _in_time(time: Array) -> Array:
@@ -188,22 +192,6 @@ def _intercept(time: Array, twist: Array) -> tuple[Array, float]:
     design = np.column_stack([np.ones(len(time)), time - time[0]])
     inverse = np.linalg.pinv(design)
     return inverse[0] @ twist, float(np.linalg.norm(inverse[0]))
-
-
-def travel(stretch: Stretch, twist: Array) -> Array:
-    """Return way [m] and turn [rad] since the wheels stood at angle 0, shape (k, 2).
-
-    twist, shape (k, 2), is held from each sample to the next.
-    """
-    steps = np.cumsum(np.diff(stretch.time)[:, None] * twist[:-1], axis=0)
-    first = np.array([stretch.start.travelled, stretch.start.turned])
-    return first + np.vstack([np.zeros(2), steps])
-
-
-def integral(time: Array, rate: Array) -> Array:
-    """Return the integral of a measured rate from the first stamp on, by trapezoids."""
-    steps = np.diff(time) * 0.5 * (rate[1:] + rate[:-1])
-    return np.concatenate([[0.0], np.cumsum(steps)])
 
 
 def _start(time: Array, twist: Array, pose: Array | None, heading: float) -> State:

@@ -1,0 +1,74 @@
+"""The way that a robot has come: what the angles of its wheels are told by.
+
+A twist's noise, added up, is a random walk; so are the errors of a predictor. A pose that was not
+made of the twist has none of that, but noise of its own, which adds up where the robot turns.
+"""
+
+import numpy as np
+from scipy.ndimage import uniform_filter1d
+
+from diffbot_sim.identification.statistics.norms import white_noise
+from diffbot_sim.records import Array, Odometry
+
+# Over which time what a pose tells beyond its twist is smoothed, and after which it is held
+# against itself [s].
+SMOOTH, LATER = 1.0, 5.0
+# How far pose and twist part in that time, in what the twist's noise adds up to. Less: the pose is
+# the twist's own sum. More: they tell of different motions.
+LEAST, MOST = 0.5, 10.0
+# A way [m] and a turn [rad] that are as good as none.
+TINY = 1e-12
+
+
+def measured_way(odometry: Odometry) -> Array:
+    """Return way [m] and turn [rad] since the first sample, shape (k, 2).
+
+    As the twist adds up, or as the pose tells where that knows more.
+    """
+    added = np.column_stack([integral(odometry.time, rate) for rate in odometry.twist.T])
+    if odometry.pose is None:
+        return added
+    told = path_of(odometry.pose)
+    smooth = _samples(odometry, SMOOTH)
+    beyond = uniform_filter1d(told - told[0] - added, smooth, axis=0, mode='nearest')
+    beyond -= beyond[0]
+    return added + beyond if _knows_more(odometry, odometry.pose, beyond) else added
+
+
+def integral(time: Array, rate: Array) -> Array:
+    """Return the integral of a measured rate from the first stamp on, by trapezoids."""
+    steps = np.diff(time) * 0.5 * (rate[1:] + rate[:-1])
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def path_of(pose: Array) -> Array:
+    """Return way ahead [m] and heading [rad], shape (k, 2), from poses (k, 3)."""
+    step, middle = np.diff(pose, axis=0), 0.5 * (pose[1:, 2] + pose[:-1, 2])
+    ahead = step[:, 0] * np.cos(middle) + step[:, 1] * np.sin(middle)
+    return np.column_stack([np.concatenate([[0.0], np.cumsum(ahead)]), pose[:, 2]])
+
+
+def _knows_more(odometry: Odometry, pose: Array, beyond: Array) -> bool:
+    """Say whether a pose is not the twist's sum, tells of the same motion, and has less noise.
+
+    beyond: way and turn that it tells beyond the twist, shape (k, 2).
+    """
+    later = _samples(odometry, LATER)
+    if len(beyond) <= later:
+        return False
+    step = white_noise(odometry.twist) * _interval(odometry)
+    parted = np.sqrt(np.mean((beyond[later:] - beyond[:-later]) ** 2, axis=0))
+    parted /= step * np.sqrt(later) + TINY
+    # Noise of a place cancels from step to step but for the turn between.
+    own = white_noise(pose[:, :2]).max() * np.linalg.norm(np.diff(pose[:, 2]))
+    less = own < step[0] * np.sqrt(len(beyond))
+    return bool(less and np.all((parted >= LEAST) & (parted <= MOST)))
+
+
+def _interval(odometry: Odometry) -> float:
+    return float(np.median(np.diff(odometry.time)))
+
+
+def _samples(odometry: Odometry, span: float) -> int:
+    """Return how many samples lie in a span of time [s], at least one."""
+    return max(1, round(span / _interval(odometry)))

@@ -1,0 +1,66 @@
+"""The way that wheels have come, as noisy twists and poses tell it."""
+
+import numpy as np
+import pytest
+
+from diffbot_sim.identification.recordings.way import measured_way
+from diffbot_sim.records import Odometry
+
+TIME = np.arange(0.0, 120.0, 0.02)
+SPEED = 0.4 * np.sin(0.7 * TIME) + 0.1
+RATE = 0.8 * np.cos(0.3 * TIME)
+NOISE = np.array([0.01, 0.02])
+
+
+def added_up(twist):
+    steps = 0.5 * np.diff(TIME)[:, None] * (twist[1:] + twist[:-1])
+    return np.vstack([np.zeros(2), np.cumsum(steps, axis=0)])
+
+
+def pose_of(twist):
+    way, turn = added_up(twist).T
+    middle, steps = 0.5 * (turn[1:] + turn[:-1]), np.diff(way)[:, None]
+    place = np.cumsum(steps * np.column_stack([np.cos(middle), np.sin(middle)]), axis=0)
+    return np.column_stack([np.vstack([np.zeros(2), place]), turn])
+
+
+@pytest.fixture
+def moved():
+    return np.column_stack([SPEED, RATE])
+
+
+@pytest.fixture
+def noisy(moved):
+    return moved + NOISE * np.random.default_rng(0).normal(size=moved.shape)
+
+
+def test_a_pose_that_knows_better_corrects_the_sum_of_noisy_twists(moved, noisy):
+    pose = pose_of(moved) + 1e-3 * np.random.default_rng(1).normal(size=(len(TIME), 3))
+    told, way = measured_way(Odometry(TIME, noisy, pose)), added_up(moved)
+    assert np.abs(told - way).max() < 0.5 * np.abs(added_up(noisy) - way).max()
+
+
+def test_a_pose_made_of_the_twist_tells_no_more_than_its_sum(noisy):
+    told = measured_way(Odometry(TIME, noisy, pose_of(noisy)))
+    assert np.array_equal(told, added_up(noisy))
+
+
+def test_without_a_pose_twists_are_added_up(noisy):
+    assert np.array_equal(measured_way(Odometry(TIME, noisy)), added_up(noisy))
+
+
+def test_a_pose_that_is_noisier_than_the_sum_of_twists_is_not_asked(moved, noisy):
+    pose = pose_of(moved) + 0.05 * np.random.default_rng(1).normal(size=(len(TIME), 3))
+    assert np.array_equal(measured_way(Odometry(TIME, noisy, pose)), added_up(noisy))
+
+
+def test_a_pose_that_was_set_anew_on_the_way_is_not_asked(moved, noisy):
+    pose = pose_of(moved)
+    pose[3000:, 0] += 5.0
+    assert np.array_equal(measured_way(Odometry(TIME, noisy, pose)), added_up(noisy))
+
+
+@pytest.mark.parametrize('count', [50, 200])
+def test_a_short_recording_has_a_way_too(noisy, moved, count):
+    seen = Odometry(TIME[:count], noisy[:count], pose_of(moved)[:count])
+    assert np.array_equal(measured_way(seen), added_up(noisy)[:count])
