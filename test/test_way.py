@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from diffbot_sim.identification.recordings.way import measured_way
+from diffbot_sim.identification.recordings.way import measured_way, path_of
 from diffbot_sim.records import Odometry
 
 TIME = np.arange(0.0, 120.0, 0.02)
@@ -19,8 +19,9 @@ def added_up(twist):
 
 def pose_of(twist):
     way, turn = added_up(twist).T
-    middle, steps = 0.5 * (turn[1:] + turn[:-1]), np.diff(way)[:, None]
-    place = np.cumsum(steps * np.column_stack([np.cos(middle), np.sin(middle)]), axis=0)
+    middle, half = 0.5 * (turn[1:] + turn[:-1]), 0.5 * np.diff(turn)
+    chords = (np.diff(way) * np.sinc(half / np.pi))[:, None]
+    place = np.cumsum(chords * np.column_stack([np.cos(middle), np.sin(middle)]), axis=0)
     return np.column_stack([np.vstack([np.zeros(2), place]), turn])
 
 
@@ -38,6 +39,12 @@ def test_a_pose_that_knows_better_corrects_the_sum_of_noisy_twists(moved, noisy)
     pose = pose_of(moved) + 1e-3 * np.random.default_rng(1).normal(size=(len(TIME), 3))
     told, way = measured_way(Odometry(TIME, noisy, pose)), added_up(moved)
     assert np.abs(told - way).max() < 0.5 * np.abs(added_up(noisy) - way).max()
+
+
+def test_arcs_between_samples_are_not_taken_for_their_chords():
+    turn = np.linspace(0.0, 20.0, 200)
+    circle = np.column_stack([np.sin(turn), 1.0 - np.cos(turn), turn])
+    assert path_of(circle)[-1] == pytest.approx([20.0, 20.0], rel=1e-9)
 
 
 def test_a_pose_made_of_the_twist_tells_no_more_than_its_sum(noisy):
