@@ -37,6 +37,8 @@ from diffbot_sim.records import Run
 
 # What lowers the BIC by so much more needs no search of its own to be believed.
 FAR = 100.0
+# Beside a force that has no name, less than this share of its worth decides nothing.
+DECIDING_SHARE = 0.05
 
 
 class Older(NamedTuple):
@@ -117,13 +119,15 @@ class Ages:
         ]
 
 
-def is_taken(older: Older, first: Fit, second: Fit) -> bool:
+def is_taken(older: Older, first: Fit, second: Fit, unexplained: float) -> bool:
     """Say whether twists are older than their stamps, by a second fit that takes them so.
 
     It must be clearly better than the first; or as good, if its robot is late in fewer ways.
+    unexplained: worth of a force that has no name, beside which worths are known so much worse.
     """
     worth, simpler = older.worth(first, second), _ways_late(second) < _ways_late(first)
-    return worth > INDISTINGUISHABLE or (worth > -INDISTINGUISHABLE and simpler)
+    as_good = -max(INDISTINGUISHABLE, DECIDING_SHARE * unexplained)
+    return worth > INDISTINGUISHABLE or (worth > as_good and simpler)
 
 
 def is_beyond_doubt(

@@ -139,8 +139,9 @@ def _timed(
     # Doubt may have withdrawn a name for what late twists left beside it.
     first = found.undoubted.final
     ages = Ages(first, found.recordings)
+    unexplained = 0.0 if found.unexplained is None else found.unexplained.worth
     for older in ages.likely if found.says_something else ():
-        if is_taken(older, first, taken(older).undoubted.final):
+        if is_taken(older, first, taken(older).undoubted.final, unexplained):
             return taken(older)
     return replace(_unfiltered(found, declared, kinds, progress), undecided=ages.is_undecided)
 
