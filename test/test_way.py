@@ -52,6 +52,12 @@ def test_a_pose_made_of_the_twist_tells_no_more_than_its_sum(noisy):
     assert np.array_equal(told, added_up(noisy))
 
 
+def test_means_since_the_sample_before_add_up_to_all_of_the_way(moved):
+    way = added_up(moved)
+    means = np.vstack([np.zeros(2), np.diff(way, axis=0) / np.diff(TIME)[:, None]])
+    assert measured_way(Odometry(TIME, means, None, (True, True))) == pytest.approx(way)
+
+
 def test_without_a_pose_twists_are_added_up(noisy):
     assert np.array_equal(measured_way(Odometry(TIME, noisy)), added_up(noisy))
 

@@ -25,7 +25,8 @@ def measured_way(odometry: Odometry) -> Array:
 
     As the twist adds up, or as the pose tells where that knows more.
     """
-    added = np.column_stack([integral(odometry.time, rate) for rate in odometry.twist.T])
+    rates = zip(odometry.twist.T, odometry.means, strict=True)
+    added = np.column_stack([_added_up(odometry.time, rate, mean) for rate, mean in rates])
     if odometry.pose is None:
         return added
     told = path_of(odometry.pose)
@@ -33,6 +34,13 @@ def measured_way(odometry: Odometry) -> Array:
     beyond = uniform_filter1d(told - told[0] - added, smooth, axis=0, mode='nearest')
     beyond -= beyond[0]
     return added + beyond if _knows_more(odometry, odometry.pose, beyond) else added
+
+
+def _added_up(time: Array, rate: Array, mean: bool) -> Array:
+    """Return what a rate adds up to; mean: whether it is one since the sample before."""
+    if not mean:
+        return integral(time, rate)
+    return np.concatenate([[0.0], np.cumsum(np.diff(time) * rate[1:])])
 
 
 def integral(time: Array, rate: Array) -> Array:
