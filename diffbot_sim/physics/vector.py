@@ -34,10 +34,11 @@ def way_of(params: Array, z: Array) -> tuple[float, float]:
 
 
 @compiled
-def roll(params: Array, z: Array, way: float, turn: float) -> None:
-    """Turn the wheels to where they stand after a way [m] and a turn [rad]."""
+def roll(params: Array, z: Array, way: float, turn: float, share: float) -> None:
+    """Turn the wheels, by a share, to where they stand after a way [m] and a turn [rad]."""
     right, left = _of_wheels(way, turn, params[2])
-    z[ANGLE_RIGHT], z[ANGLE_LEFT] = right / params[3], left / params[3]
+    z[ANGLE_RIGHT] += share * (right / params[3] - z[ANGLE_RIGHT])
+    z[ANGLE_LEFT] += share * (left / params[3] - z[ANGLE_LEFT])
 
 
 @compiled

@@ -8,6 +8,7 @@ those measured: errors of speed would add up in them, and with them go slopes an
 """
 
 from dataclasses import dataclass
+from math import exp
 
 import numpy as np
 from numba import types
@@ -38,6 +39,8 @@ from diffbot_sim.records import Array
 
 # Longest integration step [s]; fourth order keeps its error far below any odometry's noise.
 MAX_STEP = 0.02
+# In this time [s] wheels come to where they are measured to stand: noise of that is smoothed.
+ROLLED = 0.5
 # Gains: of speed, of the disturbance, and the disturbance's memory over one second; v, then ω.
 NO_GAIN = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 
@@ -150,8 +153,8 @@ def _predict(  # type: ignore[no-untyped-def]
             turning *= gains[5] ** interval
             pushing += gains[1] * params[0] / interval * error_v
             turning += gains[4] * params[1] / interval * error_omega
+            roll(params, z, way[k, 0], way[k, 1], 1.0 - exp(-interval / ROLLED))
         z[HEADING] = heading[k]
-        roll(params, z, way[k, 0], way[k, 1])
         out[k, 2], out[k, 3] = twist_of(params, z)
         out[k, 4], out[k, 5] = pushing, turning
         keep(z, modes, states, snapshots[k])
