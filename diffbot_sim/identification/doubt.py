@@ -34,9 +34,9 @@ TAKEN_SHARE = 0.5
 # Shares of what an effect explains. A law of the right form leaves less than the first to a free
 # form that is about the same: from which it takes more than the second.
 LEFT_SHARE, SAME_SHARE = 0.1, 0.15
-# No effect lowered the BIC by half as much on any of 200 clean robots; what does is no chance,
-# though it may not enter.
-SUSPICIOUS = 50.0
+# No effect lowered the BIC by more than the first on any of 200 clean robots. A name that keeps
+# more beside what is left is no chance; nor is what lowers it by the second and may not enter.
+BEYOND_CHANCE, SUSPICIOUS = 25.0, 50.0
 # Beside names a law that is right to a seventh leaves this share of what they explain to others.
 SLIGHT = 0.02
 # A name that is worth less is believed beside what is left, or refused, if that explains less than
@@ -236,6 +236,6 @@ def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
     unnamed = worth_of(left, final)
     # Beside a larger unknown what either explains only with the other's help is not the name's.
     shared = abs(taken) if unnamed > worth else max(taken, 0.0)
-    much = worth - shared - price > SUSPICIOUS
+    much = worth - shared - price > BEYOND_CHANCE
     worthier = WORTHIER * (worth - price) > unnamed
     return None if taken < SAME_SHARE * worth and (much or worthier) else whole
