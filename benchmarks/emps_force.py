@@ -25,9 +25,10 @@ NAMES = ('mass', 'dry forward', 'dry backward', 'viscous forward', 'viscous back
 
 @dataclass(frozen=True)
 class Motion:
-    """Filtered position [m], speed [m/s] and acceleration [m/s^2] at each stamp [s]."""
+    """Force [N] and filtered position [m], speed [m/s], acceleration [m/s^2] at stamps [s]."""
 
     time: Array
+    force: Array
     position: Array
     speed: Array
     acceleration: Array
@@ -38,7 +39,7 @@ def motion(axis: Axis) -> Motion:
     step = float(axis.time[1] - axis.time[0])
     position = filtfilt(*butter(4, CUT_OFF, fs=1.0 / step), axis.position)
     speed = np.gradient(position, step)
-    return Motion(axis.time, position, speed, np.gradient(speed, step))
+    return Motion(axis.time, axis.force, position, speed, np.gradient(speed, step))
 
 
 def friction(m: Motion) -> list[Array]:
@@ -59,27 +60,27 @@ def further(m: Motion) -> dict[str, list[Array]]:
     }
 
 
-def explained(axis: Axis, m: Motion, columns: Sequence[Array]) -> tuple[Array, float]:
+def explained(m: Motion, columns: Sequence[Array]) -> tuple[Array, float]:
     """Return the coefficients of columns, and the rms of the force that is left [N]."""
-    slower = butter(4, SLOWER, fs=1.0 / float(axis.time[1] - axis.time[0]))
+    slower = butter(4, SLOWER, fs=1.0 / float(m.time[1] - m.time[0]))
     asked = np.abs(m.speed) > MOVING
     asked[:EDGE] = asked[-EDGE:] = False
-    x, y = (filtfilt(*slower, a, axis=0)[asked] for a in (np.column_stack(columns), axis.force))
+    x, y = (filtfilt(*slower, a, axis=0)[asked] for a in (np.column_stack(columns), m.force))
     found = np.linalg.lstsq(x, y, rcond=None)[0]
     return found, float(np.sqrt(np.mean((y - x @ found) ** 2)))
 
 
 def table(axes: Sequence[Axis]) -> str:
     """Return Markdown: the numbers of each file, and what further forces take."""
-    moved = [(axis, motion(axis)) for axis in axes]
-    plain = [explained(axis, m, friction(m)) for axis, m in moved]
+    moved = [motion(axis) for axis in axes]
+    plain = [explained(m, friction(m)) for m in moved]
     lines = ['| | training file | test file |', '|---|---|---|']
     for name, values in zip(NAMES, np.transpose([found for found, _ in plain]), strict=True):
         lines.append(f'| {name} | {values[0]:.1f} | {values[1]:.1f} |')
     before = [left for _, left in plain]
     lines.append(f'| force left, rms [N] | {before[0]:.2f} | {before[1]:.2f} |')
-    for name in further(moved[0][1]):
-        after = [explained(axis, m, friction(m) + further(m)[name])[1] for axis, m in moved]
+    for name in further(moved[0]):
+        after = [explained(m, friction(m) + further(m)[name])[1] for m in moved]
         shares = 100.0 * (1.0 - np.array(after) / before)
         lines.append(f'| taken by {name} | {shares[0]:.1f} % | {shares[1]:.1f} % |')
     return '\n'.join(lines)

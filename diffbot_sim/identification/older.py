@@ -5,6 +5,7 @@ from functools import cached_property, partial
 from typing import NamedTuple
 
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
+from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.recordings.lateness import (
     LATE,
     LATE_EFFECTS,
@@ -17,7 +18,6 @@ from diffbot_sim.identification.recordings.lateness import (
     speed_of_interval_before,
 )
 from diffbot_sim.identification.recordings.recordings import Recordings
-from diffbot_sim.identification.recordings.stretches import median_interval
 from diffbot_sim.identification.selection.candidates import (
     approach,
     complete,

@@ -2,6 +2,7 @@
 
 from diffbot_sim.identification.conclusions import agreement
 from diffbot_sim.identification.recordings import stretches
+from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.identification.statistics import guards
 from diffbot_sim.report.numerals import significant
@@ -25,7 +26,7 @@ def _robot(result: Identification) -> list[str]:
 
 
 def _recording(result: Identification) -> list[str]:
-    rates = [1.0 / stretches.median_interval(run.time) for run in result.comparisons]
+    rates = [1.0 / median_interval(run.time) for run in result.comparisons]
     at = f' It was used at {_listed(rates)} Hz.' if rates else ''
     return [
         'The recorded forces are those that were asked of the actuators, without error, each '

@@ -1,7 +1,7 @@
 """Structure that no effect accounts for: a force that depends on something, whatever its law."""
 
 from collections.abc import Sequence
-from math import isnan
+from math import inf, isinf, isnan
 
 import numpy as np
 
@@ -64,9 +64,8 @@ def find_dependences(screen: Screen, held_out: Sequence[Stretch]) -> list[Depend
     # First order promises too little on a rough floor: how many were tried counts after the fit.
     promising = [d for d in tried if not is_chance(d.p_value, 1)]
     fitted = [realised(screen.fit, d) for d in _best_of_each(promising)[:FOLLOWED]]
-    beyond = (d for d in fitted if _is_beyond_doubt(screen, d, held_out, len(tried)))
-    fair = [against_the_model(screen.fit, d) for d in beyond]
-    found = [d for d in fair if not _may_be_chance(d, screen.fit, len(tried))]
+    doubted = (_beyond_doubt(screen.fit, d, held_out, len(tried)) for d in fitted)
+    found = [d for d in doubted if d is not None]
     worths = [worth_of(dependence, screen.fit) for dependence in found]
     most = max(worths, default=0.0)
     near = [d for d, worth in zip(found, worths, strict=True) if worth >= ALMOST * most]
@@ -81,29 +80,32 @@ def _best_of_each(dependences: Sequence[Dependence]) -> list[Dependence]:
     return list(first.values())
 
 
-def _is_beyond_doubt(
-    screen: Screen, dependence: Dependence, held_out: Sequence[Stretch], tried: int
-) -> bool:
-    if _may_be_chance(dependence, screen.fit, tried):
-        return False
-    if dependence.p_block > EITHER_LEVEL:
-        return False
+def _beyond_doubt(
+    fit: Fit, dependence: Dependence, held_out: Sequence[Stretch], tried: int
+) -> Dependence | None:
+    """Return a dependence that is beyond doubt, as it is against the model alone; None if not."""
+    if _may_be_chance(dependence, fit, tried) or dependence.p_block > EITHER_LEVEL:
+        return None
+    least = _least_worth(fit, dependence, held_out)
+    if isinf(least):
+        return None
+    fair = against_the_model(fit, dependence)
+    return None if _may_be_chance(fair, fit, tried) or worth_of(fair, fit) <= least else fair
+
+
+def _least_worth(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) -> float:
+    """Return by what it must lower the BIC to be believed, infinite if other data deny it."""
+    p_folds = dependence.p_folds
+    where_fitted = not isnan(p_folds) and lasting(dependence.p_block, p_folds)
     # A rough floor is the same again where the robot comes back, so that held-out data confirm
     # nothing: other parts of the floor must, and be as sure as blocks.
     if VARIABLES[dependence.basis.variable].order is by_place:
-        sure = dependence.p_folds <= BLOCK_LEVEL
-        return sure and lasting(dependence.p_block, dependence.p_folds)
-    held = _held_out_chance(screen.fit, dependence, held_out)
-    if lasting(dependence.p_block, elsewhere(held, dependence.p_folds)):
-        return True
-    return _has_been_there(screen.fit, dependence)
-
-
-def _has_been_there(fit: Fit, dependence: Dependence) -> bool:
-    """Say whether a force was sure all along the fitted data: then it may have ended since."""
-    if isnan(dependence.p_folds) or not lasting(dependence.p_block, dependence.p_folds):
-        return False
-    return worth_of(against_the_model(fit, dependence), fit) > FAR_BEYOND
+        return 0.0 if where_fitted and p_folds <= BLOCK_LEVEL else inf
+    held = _held_out_chance(fit, dependence, held_out)
+    if lasting(dependence.p_block, elsewhere(held, p_folds)):
+        return 0.0
+    # What was sure all along the fitted data may have ended since.
+    return FAR_BEYOND if where_fitted else inf
 
 
 def _may_be_chance(dependence: Dependence, fit: Fit, tried: int) -> bool:

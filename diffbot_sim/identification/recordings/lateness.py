@@ -12,8 +12,9 @@ from typing import Literal, NamedTuple
 import numpy as np
 from scipy.optimize import minimize_scalar
 
+from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.recordings.smoothing import smoothed_over
-from diffbot_sim.identification.recordings.stretches import averaged, median_interval
+from diffbot_sim.identification.recordings.stretches import averaged
 from diffbot_sim.identification.recordings.way import path_of
 from diffbot_sim.identification.result import Timing
 from diffbot_sim.identification.statistics.norms import white_noise

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from diffbot_sim.errors import DataError
+from diffbot_sim.identification.recordings.intervals import mean_interval, median_interval
 from diffbot_sim.identification.recordings.way import integral, measured_way
 from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array, Commands, Odometry, Run
@@ -121,18 +122,13 @@ def largest_command(stretches: Sequence[Stretch]) -> float:
 
 def _surplus(time: Array, highest: float) -> int:
     """Return how many samples become one at most at the highest rate [Hz]."""
-    interval = _mean_interval(time)
+    interval = mean_interval(time)
     return int(1.0 / (interval * highest) + 0.5) if interval > 0.0 else 1
-
-
-def _mean_interval(time: Array) -> float:
-    """Return the mean time between stamps [s]: unlike the median it bears stamps in twos."""
-    return float(time[-1] - time[0]) / (len(time) - 1) if len(time) > 1 else 1.0
 
 
 def _together(given: Commands) -> Commands:
     """Return commands of which those of one tick, each wheel's with its own stamp, are one."""
-    last = np.append(np.diff(given.time) > AT_ONCE * _mean_interval(given.time), True)
+    last = np.append(np.diff(given.time) > AT_ONCE * mean_interval(given.time), True)
     return given if last.all() else Commands(given.time[last], given.force[last])
 
 
@@ -146,11 +142,6 @@ def _held_longer(given: Commands, many: int) -> Commands:
     )
     time = np.concatenate([given.time[:count:many], given.time[count:]])
     return Commands(time, np.concatenate([impulse / held, given.force[count:]]))
-
-
-def median_interval(time: Array) -> float:
-    """Return the median time between stamps [s]; a second where there are not two."""
-    return float(np.median(np.diff(time))) if len(time) > 1 else 1.0
 
 
 def _averaged(values: Array, group: int) -> Array:

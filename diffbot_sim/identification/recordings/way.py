@@ -7,6 +7,7 @@ made of the twist has none of that, but noise of its own, which adds up where th
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
+from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.statistics.norms import white_noise
 from diffbot_sim.records import Array, Odometry
 
@@ -66,7 +67,7 @@ def _knows_more(odometry: Odometry, pose: Array, beyond: Array) -> bool:
     later = _samples(odometry, LATER)
     if len(beyond) <= later:
         return False
-    step = white_noise(odometry.twist) * _interval(odometry)
+    step = white_noise(odometry.twist) * median_interval(odometry.time)
     parted = np.sqrt(np.mean((beyond[later:] - beyond[:-later]) ** 2, axis=0))
     parted /= step * np.sqrt(later) + TINY
     # Noise of a place cancels from step to step but for the turn between.
@@ -75,10 +76,6 @@ def _knows_more(odometry: Odometry, pose: Array, beyond: Array) -> bool:
     return bool(less and np.all((parted >= LEAST) & (parted <= MOST)))
 
 
-def _interval(odometry: Odometry) -> float:
-    return float(np.median(np.diff(odometry.time)))
-
-
 def _samples(odometry: Odometry, span: float) -> int:
     """Return how many samples lie in a span of time [s], at least one."""
-    return max(1, round(span / _interval(odometry)))
+    return max(1, round(span / median_interval(odometry.time)))
