@@ -122,6 +122,12 @@ def test_effect_that_only_resembles_what_acts_is_not_named() -> None:
     assert result.unexplained.variable == 'past_force'
 
 
+def test_limit_that_does_not_fall_with_speed_is_not_named_for_what_makes_it_fall() -> None:
+    others = [kind for name, kind in laws().items() if name != 'actuator_saturation']
+    result = identify([run_of(with_typical('actuator_saturation'), 3)], DECLARED, kinds=others)
+    assert result.verdict == 'unexplained'
+
+
 def test_interval_of_a_time_constant_longer_than_the_drive_reaches_far() -> None:
     result = identify([run_of(with_typical('friction_drift'), 3)], DECLARED)
     found = result.effects[0].parameters['time_constant']

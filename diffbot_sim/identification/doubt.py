@@ -22,7 +22,7 @@ from diffbot_sim.identification.selection.candidates import reduce
 from diffbot_sim.identification.selection.evidence import delta_bic
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.stepwise import Selection
-from diffbot_sim.identification.selection.trials import INCREDIBLE, Trial
+from diffbot_sim.identification.selection.trials import BEREFT, INCREDIBLE, Trial
 from diffbot_sim.identification.statistics.guards import BLOCK_LEVEL
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
@@ -42,6 +42,11 @@ SLIGHT = 0.02
 # A name that is worth less is believed beside what is left, or refused, if that explains less than
 # this share of it.
 WORTHIER = 0.5
+# Why an effect that explains much may not enter; where it is none of these, it does not last.
+REASONS = {
+    INCREDIBLE: 'only with values that no robot has',
+    BEREFT: 'only by what it shares with another effect',
+}
 # Friction near rest is allowed for in about its form: of what that explains, as much again as this
 # share may be left.
 ALLOWED_SHARE = 0.5
@@ -168,8 +173,7 @@ def _suspicion(seen: Seen) -> Objection:
 
 def _but(refused: Trial) -> str:
     """Say why an effect that explains much may not enter."""
-    incredible = refused.outcome == INCREDIBLE
-    return 'only with values that no robot has' if incredible else 'not all along the runs'
+    return REASONS.get(refused.outcome, 'not all along the runs')
 
 
 def _worth_without_luck(trial: Trial) -> float:

@@ -9,11 +9,16 @@ from scipy import stats
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, complete
-from diffbot_sim.identification.selection.evidence import Evidence, compare
+from diffbot_sim.identification.selection.evidence import Evidence, compare, wald
 from diffbot_sim.identification.selection.feedback import is_of_feedback
 from diffbot_sim.identification.selection.rivals import comes_up
 from diffbot_sim.identification.selection.screening import PROMISING, Score, Screen
-from diffbot_sim.identification.statistics.guards import ELSEWHERE_LEVEL, lasting, may_be_chance
+from diffbot_sim.identification.statistics.guards import (
+    BLOCK_LEVEL,
+    ELSEWHERE_LEVEL,
+    lasting,
+    may_be_chance,
+)
 from diffbot_sim.physics.effects import Effect
 
 # What promises less than this share of the best to first order is approached, and what explains
@@ -31,6 +36,7 @@ UNCONFIRMED = 'does not predict held-out data better'
 BEHIND = 'explains far less than another effect'
 OUTDONE = 'resembles what acts, but a free-form force explains more'
 INCREDIBLE = 'fits only with values that no robot has'
+BEREFT = 'nothing of it but what it shares with another effect'
 HEARD = 'only while the forces hardly change, as where a controller hears more than was recorded'
 UNSEEN = 'not excited by this drive'
 
@@ -136,9 +142,18 @@ def _completed(
     outcome = judge(evidence, tried)
     if outcome == SUPPORTED and kind.name in fit.incredible:
         outcome = INCREDIBLE
+    elif outcome == SUPPORTED and _is_bereft(fit, kind):
+        outcome = BEREFT
     elif outcome == SUPPORTED and is_of_feedback(fit, kind.name):
         outcome = HEARD
     return Trial(kind, fit, evidence, outcome)
+
+
+def _is_bereft(fit: Fit, kind: type[Effect]) -> bool:
+    """Say whether what makes an effect what it is may well be neutral."""
+    names = [coordinate.name for coordinate in fit.space.coordinates]
+    essential = [names.index(f'{kind.name}.{name}') for name in kind.essential]
+    return bool(essential) and wald(fit, essential, fit.space.shapes) > BLOCK_LEVEL
 
 
 def _dismissed(screen: Screen, kind: type[Effect], score: Score) -> Trial:

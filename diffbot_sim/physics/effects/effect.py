@@ -44,6 +44,7 @@ class Effect:
     is_of_time: whether it counts time from the start of the run.
     guesses: values of the parameters from which fits start.
     shape: names of parameters that mean nothing while the others are neutral (a moment, a period).
+    essential: names of parameters that make it what it is: neutral, they leave another effect.
     onset: which of them is a moment before which it does nothing, and after which it acts as it
     would from the start of the run.
     excitation: the drive that shows it.
@@ -62,6 +63,7 @@ class Effect:
     is_of_time: ClassVar[bool] = False
     guesses: ClassVar[tuple[tuple[Any, ...], ...]]
     shape: ClassVar[tuple[str, ...]] = ()
+    essential: ClassVar[tuple[str, ...]] = ()
     onset: ClassVar[str | None] = None
     excitation: ClassVar[str]
 

@@ -41,6 +41,7 @@ class VoltageLimit(Effect):
     stage = Stage.ACTUATOR
     kernel = limited
     guesses = ((10.0, 1.0), (4.0, 0.5))
+    essential = ('no_load_speed',)
     excitation = 'the strongest commands, from rest until the robot is fast'
 
     stall_force: float = parameter(
