@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from diffbot_sim.identification.recordings.way import measured_way, path_of
-from diffbot_sim.records import Odometry
+from diffbot_sim.identification.recordings.stretches import split
+from diffbot_sim.identification.recordings.way import measured_heading, measured_way, path_of
+from diffbot_sim.records import Commands, Odometry, Run
 
 TIME = np.arange(0.0, 120.0, 0.02)
 SPEED = 0.4 * np.sin(0.7 * TIME) + 0.1
@@ -77,3 +78,36 @@ def test_a_pose_that_was_set_anew_on_the_way_is_not_asked(moved, noisy):
 def test_a_short_recording_has_a_way_too(noisy, moved, count):
     seen = Odometry(TIME[:count], noisy[:count], pose_of(moved)[:count])
     assert np.array_equal(measured_way(seen), added_up(noisy)[:count])
+
+
+def heading_of(turned, rate, mean=False):
+    """Return the heading that is taken for measured where a pose has turned so."""
+    twist, pose = np.column_stack([SPEED, rate]), np.zeros((len(TIME), 3))
+    pose[:, 2] = turned
+    return measured_heading(Odometry(TIME, twist, pose, (mean, mean)))
+
+
+def test_heading_that_adds_up_rates_of_the_moment_is_taken_back_by_half_a_step(moved):
+    turn, steps = added_up(moved)[:, 1], RATE * 0.02
+    behind = np.concatenate([[0.0], np.cumsum(steps[:-1])])
+    ahead = behind + steps - steps[0]
+    for told in (behind, ahead):
+        heading = heading_of(told, RATE)
+        assert heading - heading[0] == pytest.approx(turn, abs=1e-9)
+
+
+def test_heading_that_adds_up_means_is_right_as_it_is(moved):
+    turn = added_up(moved)[:, 1]
+    means = np.append(0.0, np.diff(turn) / np.diff(TIME))
+    assert np.array_equal(heading_of(turn, means, mean=True), turn)
+
+
+def test_heading_of_a_compass_is_right_as_it_is(noisy, moved):
+    turn = added_up(moved)[:, 1]
+    assert np.array_equal(heading_of(turn, noisy[:, 1]), turn)
+
+
+def test_heading_without_a_pose_goes_on_where_data_are_held_out(moved):
+    run = Run('run', Commands(TIME, np.zeros((len(TIME), 2))), Odometry(TIME, moved))
+    (fitted,), (held_out,) = split([run])
+    assert held_out.heading[0] == pytest.approx(fitted.heading[-1], abs=0.02)

@@ -7,7 +7,7 @@ import numpy as np
 
 from diffbot_sim.errors import DataError
 from diffbot_sim.identification.recordings.intervals import mean_interval, median_interval
-from diffbot_sim.identification.recordings.way import integral, measured_way
+from diffbot_sim.identification.recordings.way import measured_heading, measured_way
 from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array, Commands, Odometry, Run
 
@@ -160,7 +160,7 @@ def _stretch(run: Run, begin: float, end: float) -> Stretch:
             f'record at least {4 * FEWEST_SAMPLES}, better two minutes.'
         )
     pose = None if odometry.pose is None else odometry.pose[part]
-    heading = integral(time, twist[:, 1]) if pose is None else pose[:, 2]
+    heading = measured_heading(odometry)[part]
     way = measured_way(odometry)[part]
     travelled, turned = way[0]
     start = replace(

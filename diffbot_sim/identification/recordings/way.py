@@ -17,6 +17,8 @@ SMOOTH, LATER = 1.0, 5.0
 # How far pose and twist part in that time, in what the twist's noise adds up to. Less: the pose is
 # the twist's own sum. More: they tell of different motions.
 LEAST, MOST = 0.5, 10.0
+# A heading was made of the twist if most of its large steps are those, but for this share.
+ROUNDED = 1e-3
 # A way [m] and a turn [rad] that are as good as none.
 TINY = 1e-12
 
@@ -35,6 +37,31 @@ def measured_way(odometry: Odometry) -> Array:
     beyond = uniform_filter1d(told - told[0] - added, smooth, axis=0, mode='nearest')
     beyond -= beyond[0]
     return added + beyond if _knows_more(odometry, odometry.pose, beyond) else added
+
+
+def measured_heading(odometry: Odometry) -> Array:
+    """Return the heading at each stamp [rad], shape (k,), as the pose tells, or the twist.
+
+    A pose that adds up turn rates of the moment, each over a whole interval, is half a step ahead
+    or behind where the robot turns: that is taken out.
+    """
+    time, rate, mean = odometry.time, odometry.twist[:, 1], odometry.means[1]
+    if odometry.pose is None:
+        return _added_up(time, rate, mean)
+    heading, steps = odometry.pose[:, 2], np.diff(time)
+    turned, half = np.diff(heading), 0.5 * np.append(steps[0], steps) * rate
+    if mean:
+        return heading
+    if _is_made_of(turned, steps * rate[1:]):
+        return np.asarray(heading - half)
+    return np.asarray(heading + half) if _is_made_of(turned, steps * rate[:-1]) else heading
+
+
+def _is_made_of(turned: Array, added: Array) -> bool:
+    """Say whether a heading turned as rates add up, but where samples are lost."""
+    size = np.abs(added)
+    large = size >= size.mean()
+    return bool(np.median(np.abs(turned - added)[large]) < ROUNDED * size.mean())
 
 
 def _added_up(time: Array, rate: Array, mean: bool) -> Array:
