@@ -17,6 +17,7 @@ from recovery_cases import Case, cases
 from recovery_judge import planted_in, recorded
 from scipy.signal import savgol_filter
 
+from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.records import Array, Run
 
 WINDOWS = (11, 31)  # of the polynomials that differentiate [samples]
@@ -56,7 +57,7 @@ class Motion:
 def motion(case: Case, run: Run, window: int) -> Motion:
     """Smooth what was measured."""
     time, plant = run.odometry.time, MAKES[case.make].plant
-    step = float(np.median(np.diff(time)))
+    step = median_interval(time)
     v, omega = savgol_filter(run.odometry.twist, window, DEGREE, axis=0).T
     wheels = np.column_stack([v + plant.half * omega, v - plant.half * omega])
     pose = run.odometry.pose
@@ -75,7 +76,7 @@ def motion(case: Case, run: Run, window: int) -> Motion:
 
 def regressions(case: Case, run: Run, window: int) -> tuple[Regression, Regression]:
     """Return the regressions of dv/dt and dω/dt."""
-    at, step = motion(case, run, window), float(np.median(np.diff(run.odometry.time)))
+    at, step = motion(case, run, window), median_interval(run.odometry.time)
     slopes = savgol_filter(run.odometry.twist, window, DEGREE, deriv=1, delta=step, axis=0)
     along = [
         *shared_terms(at, np.array([1.0, 1.0])),

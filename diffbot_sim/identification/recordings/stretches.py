@@ -34,10 +34,10 @@ class Stretch:
     """A part of a run with the commands of the whole run.
 
     time [s], shape (k,), counted from the start of the run; twist, shape (k, 2); heading [rad],
-    shape (k,), measured where a pose was recorded, otherwise the integral of ω; way [m] and turn
-    [rad] since the wheels stood at angle 0, shape (k, 2), as measured_way tells; start: state at
-    time[0]; used: samples that count in fits, shape (k,); push: a force [N] and torque [N·m] that
-    acts on the body after each sample, shape (k, 2), none unless given.
+    shape (k,), as measured_heading tells; way [m] and turn [rad] since the wheels stood at angle
+    0, shape (k, 2), as measured_way tells; start: state at time[0]; used: samples that count in
+    fits, shape (k,); push: a force [N] and torque [N·m] that acts on the body after each sample,
+    shape (k, 2), none unless given.
     """
 
     run: Run

@@ -1,4 +1,4 @@
-"""The way that a robot has come: what the angles of its wheels are told by.
+"""The way that a robot has come, and its heading: wheel angles and slopes hang on them.
 
 A twist's noise, added up, is a random walk; so are the errors of a predictor. A pose that was not
 made of the twist has none of that, but noise of its own, which adds up where the robot turns.
@@ -48,13 +48,19 @@ def measured_heading(odometry: Odometry) -> Array:
     time, rate, mean = odometry.time, odometry.twist[:, 1], odometry.means[1]
     if odometry.pose is None:
         return _added_up(time, rate, mean)
-    heading, steps = odometry.pose[:, 2], np.diff(time)
-    turned, half = np.diff(heading), 0.5 * np.append(steps[0], steps) * rate
-    if mean:
-        return heading
+    heading = odometry.pose[:, 2]
+    return heading if mean else _of_the_moment(time, heading, rate)
+
+
+def _of_the_moment(time: Array, heading: Array, rate: Array) -> Array:
+    """Return a heading without the half step that it owes to added-up rates, if it does."""
+    turned, steps = np.diff(heading), np.diff(time)
+    half = 0.5 * np.append(steps[0], steps) * rate
     if _is_made_of(turned, steps * rate[1:]):
         return np.asarray(heading - half)
-    return np.asarray(heading + half) if _is_made_of(turned, steps * rate[:-1]) else heading
+    if _is_made_of(turned, steps * rate[:-1]):
+        return np.asarray(heading + half)
+    return heading
 
 
 def _is_made_of(turned: Array, added: Array) -> bool:

@@ -151,8 +151,8 @@ def _completed(
 
 def _is_bereft(fit: Fit, kind: type[Effect]) -> bool:
     """Say whether what makes an effect what it is may well be neutral."""
-    names = [coordinate.name for coordinate in fit.space.coordinates]
-    essential = [names.index(f'{kind.name}.{name}') for name in kind.essential]
+    places = zip(kind.specs(), fit.space.places(kind.name), strict=True)
+    essential = [place for spec, place in places if spec.name in kind.essential]
     return bool(essential) and wald(fit, essential, fit.space.shapes) > BLOCK_LEVEL
 
 
