@@ -8,6 +8,7 @@ from scipy.optimize import least_squares
 
 from diffbot_sim.identification.recordings.measurement import simulated
 from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.statistics.robust import HUBER, huber
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array
@@ -36,10 +37,10 @@ def start_of(model: Model, stretch: Stretch, max_step: float) -> State:
         return np.asarray(((twist - run.twist) / noise).ravel())
 
     guess = np.array([first.v, first.omega])
-    best = least_squares(errors, guess, loss='huber', f_scale=3.0, diff_step=1e-5, max_nfev=10)
-    at_rest = np.minimum(np.abs(errors(np.zeros(2))), 3.0)
-    moving = np.minimum(np.abs(errors(best.x)), 3.0)
-    if np.sum(at_rest**2) < np.sum(moving**2) + REST:
+    best = least_squares(errors, guess, loss='huber', f_scale=HUBER, diff_step=1e-5, max_nfev=10)
+    # Robust, but without a limit: what is far from rest must tell, whatever the model errs.
+    at_rest, moving = (float(huber(errors(at)).sum()) for at in (np.zeros(2), best.x))
+    if at_rest < moving + REST:
         return replace(first, v=0.0, omega=0.0)
     return replace(first, v=float(best.x[0]), omega=float(best.x[1]))
 
