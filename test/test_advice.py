@@ -38,5 +38,11 @@ def test_vague_parameter_of_an_effect_asks_for_the_drive_of_that_effect() -> Non
 
 
 def test_parameter_at_its_bound_is_open() -> None:
-    (line,) = advice(selection(), {'stribeck': Estimate(25.0, 25.0, 25.0, 's/m', at_bound=True)})
-    assert 'leaves it open' in line
+    (line,) = advice(selection(), {'mu_viscous': Estimate(0.0, 0.0, 0.0, 's/m', at_bound=True)})
+    assert 'at the end of its valid range' in line
+
+
+def test_mass_that_was_declared_far_off_is_to_be_declared_nearer() -> None:
+    (line,) = advice(selection(), {'mass': Estimate(33.3, 33.2, 33.4, 'kg', at_bound=True)})
+    assert '30 times larger or smaller than declared' in line
+    assert 'declare it nearer' in line

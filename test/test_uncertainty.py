@@ -2,10 +2,19 @@
 
 import numpy as np
 
-from diffbot_sim.identification.conclusions.uncertainty import CHANCE, estimates_at, farthest
+from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
+from diffbot_sim.identification.conclusions.uncertainty import (
+    CHANCE,
+    estimates,
+    estimates_at,
+    farthest,
+)
 from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.fit import fit_simulation
+from diffbot_sim.identification.recordings.stretches import whole
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.payload_change import PayloadChange
+from diffbot_sim.records import Commands
 
 SPACE = Space(Model(), ())
 NAMES = [coordinate.name for coordinate in SPACE.coordinates]
@@ -39,3 +48,13 @@ def test_load_of_a_heavy_robot_is_not_pulled_to_none() -> None:
     own = [space.coordinates[index] for index in space.places('payload_change')]
     mass = next(coordinate for coordinate in own if coordinate.name.endswith('mass'))
     assert (9.0 / mass.value(1.0) / mass.deviation) ** 2 < 0.1  # of one sample's worth
+
+
+def test_what_a_straight_drive_does_not_show_has_a_wide_interval() -> None:
+    given = random_forces(1, 20.0, -9.0, 11.0)
+    straight = Commands(given.time, given.force[:, [0, 0]])
+    run = rehearse(Model(), straight, Surroundings(omega_noise=0.0), 1)
+    found = estimates(fit_simulation(SPACE, whole([run]), SPACE.prior()))
+    assert found['mass'].high - found['mass'].low < 0.1 * found['mass'].value
+    assert found['inertia'].high > 2.0 * found['inertia'].value
+    assert found['inertia'].low >= 0.0

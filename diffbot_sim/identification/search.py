@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from diffbot_sim.errors import DataError
 from diffbot_sim.identification.doubt import SUSPICIOUS, doubt, with_friction_eased
 from diffbot_sim.identification.fitting.calibration import calibrate, simulation_error
 from diffbot_sim.identification.fitting.coordinates import Space
@@ -16,6 +15,7 @@ from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
 from diffbot_sim.identification.later import sets_in_later
 from diffbot_sim.identification.leading import acted_before, lead_of
 from diffbot_sim.identification.older import Ages, Older, is_beyond_doubt, is_taken
+from diffbot_sim.identification.recordings.checks import check
 from diffbot_sim.identification.recordings.lateness import half_interval, timely, timing
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
@@ -193,7 +193,7 @@ def _begun_later(
 
 def _begins_later(found: Found, kinds: Sequence[type[Effect]]) -> bool:
     final = found.selection.final
-    if found.recordings.validate:
+    if found.recordings.validate or not found.recordings.allow_less_held_out:
         return False
     if found.unexplained is not None:
         return moves_otherwise(final, found.held_out) is not None
@@ -210,7 +210,7 @@ def _search(
 def _begun(recordings: Recordings, declared: Model, progress: Progress) -> Begun:
     """Recalibrate the declared model, and fit the noise model to it."""
     fitted, held_out = recordings.divided
-    _check(fitted)
+    check(fitted, held_out)
     progress('calibrating the declared model')
     recalibrated = calibrate(Space(declared, ()), fitted)
     fitted = restarted(recalibrated.model, fitted, MAX_STEP)
@@ -229,12 +229,3 @@ def _found(begun: Begun, kinds: Sequence[type[Effect]], progress: Progress) -> F
     progress('looking for structure that is left')
     doubted = doubt(selection, begun.held_out)
     return Found(begun.recordings, begun.held_out, begun.recalibrated, selection, *doubted)
-
-
-def _check(stretches: Sequence[Stretch]) -> None:
-    """Refuse runs from which nothing follows."""
-    if all(float(abs(s.twist).max()) < 1e-3 for s in stretches):
-        names = ', '.join(s.run.name for s in stretches)
-        raise DataError(
-            f'{names}: the robot never moves; record a drive with forces that move it.'
-        )

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from math import isfinite
 
+from diffbot_sim.identification.fitting.coordinates import WIDEST_FACTOR
 from diffbot_sim.identification.result import Estimate
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import UNSEEN
@@ -29,7 +30,7 @@ def advice(selection: Selection, found: Mapping[str, Estimate]) -> tuple[str, ..
             f'{kind.name} cannot be seen in this drive; it would take {kind.excitation}.'
             for kind in unseen
         ),
-        *(f'{name} is {_how(it)}; it would take {_drive(name)}.' for name, it in vague.items()),
+        *(f'{name} is {_how(name, it)}; {_drive(name)}.' for name, it in vague.items()),
     )
 
 
@@ -37,7 +38,10 @@ def _is_vague(it: Estimate) -> bool:
     return it.at_bound or 0.5 * (it.high - it.low) > WIDE * abs(it.value)
 
 
-def _how(it: Estimate) -> str:
+def _how(name: str, it: Estimate) -> str:
+    if it.at_bound and name in ('mass', 'inertia', 'stribeck'):
+        far = f'{WIDEST_FACTOR:g} times larger or smaller than declared'
+        return f'{far}, further no fit goes: declare it nearer, or this drive leaves it open'
     if it.at_bound:
         return 'at the end of its valid range, so this drive leaves it open'
     share = 0.5 * (it.high - it.low) / abs(it.value) if it.value else float('inf')
@@ -46,4 +50,5 @@ def _how(it: Estimate) -> str:
 
 def _drive(name: str) -> str:
     effect, _, _ = name.partition('.')
-    return DRIVES[name] if name in DRIVES else library()[effect].excitation
+    drive = DRIVES[name] if name in DRIVES else library()[effect].excitation
+    return f'it would take {drive}'

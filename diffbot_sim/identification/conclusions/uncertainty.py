@@ -108,17 +108,13 @@ def estimates_at(space: Space, u: Array, spread: Array) -> dict[str, Estimate]:
         derivative[:, index] = [(shifted[name] - values[name]) / STEP for name in names]
     own = derivative @ spread[:size, :size] @ derivative.T
     reach = QUANTILE * np.sqrt(np.maximum(np.diag(own), 0.0))
-    units = {coordinate.name: coordinate.unit for coordinate in space.coordinates}
-    stopped = dict(zip(names, at_bound(space, u), strict=True))
+    middle = np.array(list(values.values()))
+    lowest, highest = np.transpose([coordinate.valid for coordinate in space.coordinates])
+    lows, highs = (np.clip(ends, lowest, highest) for ends in (middle - reach, middle + reach))
+    facts = zip(space.coordinates, lows, highs, at_bound(space, u), strict=True)
     return {
-        name: Estimate(
-            value=values[name],
-            low=values[name] - float(half),
-            high=values[name] + float(half),
-            unit=units[name],
-            at_bound=bool(stopped[name]),
-        )
-        for name, half in zip(names, reach, strict=True)
+        it.name: Estimate(values[it.name], float(low), float(high), it.unit, bool(stopped))
+        for it, low, high, stopped in facts
     }
 
 

@@ -27,7 +27,8 @@ WIDEST_FACTOR = 30.0
 class Coordinate:
     """One number of a fit: dimensionless, of order one, `prior` where nothing is known.
 
-    value turns it into the parameter's own unit; deviation: the standard deviation of the prior.
+    value turns it into the parameter's own unit, in which valid are its lowest and highest value;
+    deviation: the standard deviation of the prior.
     """
 
     name: str
@@ -36,6 +37,7 @@ class Coordinate:
     low: float
     high: float
     value: Callable[[float], float]
+    valid: tuple[float, float]
     deviation: float = PRIOR_DEVIATION
 
 
@@ -131,7 +133,8 @@ def _of_effect(kind: type[Effect], spec: Spec) -> Coordinate:
     deviation = PRIOR_DEVIATION if spec.reciprocal else EFFECT_DEVIATION
     deviation = NO_PRIOR if spec.name in kind.shape else deviation
     name = f'{kind.name}.{spec.name}'
-    return Coordinate(name, spec.unit, neutral, min(ends), max(ends), value, deviation)
+    low, high, valid = min(ends), max(ends), (spec.low, spec.high)
+    return Coordinate(name, spec.unit, neutral, low, high, value, valid, deviation)
 
 
 def _in_scale(spec: Spec, value: float) -> float:
@@ -145,18 +148,18 @@ def _positive(spec: Spec, declared: float) -> Coordinate:
         return float(np.clip(declared * exp(u), spec.low, spec.high))
 
     widest = log(WIDEST_FACTOR)
-    return Coordinate(spec.name, spec.unit, 0.0, -widest, widest, value)
+    valid = (spec.low, spec.high)
+    return Coordinate(spec.name, spec.unit, 0.0, -widest, widest, value, valid)
 
 
 def _linear(spec: Spec, declared: float) -> Coordinate:
     """Fit a parameter that may be zero, in units of its declared size."""
-    scale = max(declared, spec.scale)
-    high = spec.high / scale
+    scale, valid = max(declared, spec.scale), (spec.low, spec.high)
 
     def value(u: float) -> float:
         return u * scale
 
-    return Coordinate(spec.name, spec.unit, declared / scale, 0.0, high, value)
+    return Coordinate(spec.name, spec.unit, declared / scale, 0.0, spec.high / scale, value, valid)
 
 
 def point_of(kind: type[Effect], values: Sequence[float]) -> Array:

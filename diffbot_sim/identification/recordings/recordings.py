@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from diffbot_sim.errors import DataError
 from diffbot_sim.identification.recordings.stretches import (
     FITTED_SHARE,
     LARGER_SHARE,
@@ -30,6 +31,15 @@ class Recordings:
         if self.validate:
             return whole(self.learned), whole(self.validate)
         return split(self.learned, self.share)
+
+    @property
+    def allow_less_held_out(self) -> bool:
+        """Whether less of each run would be enough to judge by."""
+        try:
+            split(self.learned, LARGER_SHARE)
+        except DataError:
+            return False
+        return True
 
     @property
     def less_held_out(self) -> 'Recordings':

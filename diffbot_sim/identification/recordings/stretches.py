@@ -154,11 +154,7 @@ def _stretch(run: Run, begin: float, end: float) -> Stretch:
     odometry, count = run.odometry, len(run.odometry.time)
     part = slice(int(begin * count), int(end * count))
     time, twist = odometry.time[part], odometry.twist[part]
-    if len(time) < FEWEST_SAMPLES:
-        raise DataError(
-            f'{run.name}: {count} odometry samples are too few to fit and to hold out; '
-            f'record at least {4 * FEWEST_SAMPLES}, better two minutes.'
-        )
+    used = _used(run.name, time)
     pose = None if odometry.pose is None else odometry.pose[part]
     heading = measured_heading(odometry)[part]
     way = measured_way(odometry)[part]
@@ -168,8 +164,20 @@ def _stretch(run: Run, begin: float, end: float) -> Stretch:
         travelled=float(travelled),
         turned=float(turned),
     )
-    used = ((time > time[0] + SETTLING) & _in_time(time)).astype(float)
     return Stretch(run, time, twist, np.ascontiguousarray(heading), way, pose, start, used)
+
+
+def _used(name: str, time: Array) -> Array:
+    """Return which samples count in fits, 1 or 0; raises DataError where those are too few."""
+    used = (time > time[0] + SETTLING) & _in_time(time) if len(time) > FEW else np.zeros(1)
+    if np.count_nonzero(used) < FEWEST_SAMPLES:
+        raise DataError(
+            f'{name}: {len(time)} odometry samples, at most {HIGHEST_RATE:g} a second, are too '
+            f'few to fit or to judge by: those of the first {SETTLING:g} s do not count, and '
+            f'{FEWEST_SAMPLES} must be left. Of a run that is divided {1.0 - FITTED_SHARE:.0%} '
+            'are held out. Record longer, better two minutes.'
+        )
+    return used.astype(float)
 
 
 def _in_time(time: Array) -> Array:

@@ -207,14 +207,17 @@ def jackknife(fit: Fit) -> Array:
     """Return the covariance of (u, gains) from fits that lack a block each, to first order.
 
     Shape (p, p). Unlike the sandwich it does not shrink as parameters use up the blocks: CR3 of
-    MacKinnon, Nielsen, Webb (2023). What one block alone tells is wide.
+    MacKinnon, Nielsen, Webb (2023). What one block alone tells is wide. What none tells was
+    guessed, and is as uncertain as the guess: the prior adds its own share.
     """
-    jacobian = fit.jacobian
+    jacobian, prior = fit.jacobian, np.diag(fit.prior_information)
     parts = [np.tensordot(j, j, ((0, 1), (0, 1))) for j in np.array_split(jacobian, BLOCKS)]
-    whole = sum(parts, np.diag(fit.prior_information))
+    whole = sum(parts, prior)
     scores = block_scores(jacobian, fit.whitened)
     moved = [np.linalg.solve(whole - p, s) for p, s in zip(parts, scores, strict=True)]
-    return np.asarray(np.transpose(moved) @ moved * (BLOCKS - 1) / BLOCKS)
+    bread = np.linalg.inv(whole)
+    guessed = bread @ prior @ bread
+    return np.asarray(np.transpose(moved) @ moved * (BLOCKS - 1) / BLOCKS + guessed)
 
 
 def block_scores(jacobian: Array, errors: Array) -> Array:
