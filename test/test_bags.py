@@ -104,7 +104,7 @@ def test_holes_in_the_odometry_are_told(tmp_path):
     late = [stamped(message, message.stamp) for message in late]
     write_bag(tmp_path / 'drive', [*messages(drive())[:150], *late])
     (note,) = read_run(tmp_path / 'drive').notes
-    assert 'drive: the odometry has holes: 4.0 s from 0.5 s on; ' in note
+    assert f'drive: {ODOM} has holes: 4.0 s from 0.5 s on; ' in note
 
 
 def test_odometry_that_is_always_slow_has_no_holes(tmp_path):
@@ -118,3 +118,46 @@ def test_a_pose_that_nobody_filled_is_no_pose(tmp_path):
         odom = replace(drive().odometry, pose=pose)
         write_run(tmp_path / name, replace(drive(), odometry=odom), START)
         assert read_run(tmp_path / name).run.odometry.pose is None
+
+
+def test_forces_that_end_long_before_the_odometry_are_told(tmp_path):
+    slow = [stamped(m, START + 10 * (m.stamp - START)) for m in messages(drive())]
+    write_bag(tmp_path / 'drive', [m for i, m in enumerate(slow) if m.topic != LEFT or i < 150])
+    assert read_run(tmp_path / 'drive').notes == (
+        f'drive: {LEFT} ends 5.0 s before the odometry; its last force is held',
+    )
+
+
+def test_forces_that_fall_silent_while_the_robot_moves_are_told(tmp_path):
+    slow = [stamped(m, START + 10 * (m.stamp - START)) for m in messages(drive())]
+    kept = [m for i, m in enumerate(slow) if m.topic != RIGHT or not 90 < i < 180]
+    write_bag(tmp_path / 'drive', kept)
+    (note,) = read_run(tmp_path / 'drive').notes
+    assert f'{RIGHT} has holes: 3.0 s from 3.0 s on; the last force' in note
+
+
+def test_poses_that_hold_nan_leave_the_twists(tmp_path):
+    odom = replace(drive().odometry, pose=np.full((100, 3), np.nan))
+    write_run(tmp_path / 'drive', replace(drive(), odometry=odom), START)
+    found = read_run(tmp_path / 'drive')
+    assert found.run.odometry.pose is None
+    assert found.notes == ('drive: the poses hold NaN or infinity; used the twists alone',)
+
+
+def test_poses_that_never_turn_beside_twists_that_do_are_left_out(tmp_path):
+    assert drive().odometry.pose is not None
+    odom = replace(drive().odometry, pose=drive().odometry.pose * [1.0, 1.0, 0.0])
+    write_run(tmp_path / 'drive', replace(drive(), odometry=odom), START)
+    found = read_run(tmp_path / 'drive')
+    assert found.run.odometry.pose is None
+    assert found.notes == (
+        'drive: the poses never turn though the twists do; used the twists alone',
+    )
+
+
+def test_some_messages_of_equal_stamps_are_told(tmp_path):
+    items = messages(drive())
+    items += [m._replace(stamp=m.stamp + 10**6) for m in items if m.topic == LEFT][:20]
+    write_bag(tmp_path / 'drive', items)
+    (note,) = read_run(tmp_path / 'drive').notes
+    assert f'20 of 120 messages of {LEFT} bear the stamp of another' in note

@@ -33,6 +33,11 @@ def test_many_messages_with_nan_are_refused(tmp_path):
     assert '/odom: 5 of 100 messages hold NaN or infinity' in told(tmp_path / 'drive')
 
 
+def test_a_clock_that_stands_still_is_told(tmp_path):
+    items = [stamped(m, START) if m.topic == LEFT else m for m in messages(drive())]
+    assert f'{LEFT}: 99 of 100 messages bear the stamp of another' in told_of(tmp_path, items)
+
+
 def test_a_bag_without_odometry_lists_what_it_holds(tmp_path):
     forces = [item for item in messages(drive()) if item.topic != ODOM]
     text = told_of(tmp_path, forces)

@@ -14,7 +14,7 @@ NANOSECONDS = 1_000_000_000
 # A clock that jumps further [ns] has been reset, or the bag holds two drives.
 LONGEST_STEP_BACK = NANOSECONDS
 LONGEST_GAP = 3600 * NANOSECONDS
-MOST_UNUSABLE = 0.01
+MOST_UNUSABLE, MOST_REPEATED = 0.01, 0.5
 
 
 @dataclass(frozen=True)
@@ -40,20 +40,23 @@ class Series:
 class Ordered:
     """Usable messages: stamps [ns], shape (n,), increasing; values, shape (n, m), finite.
 
-    dropped: how many were left out because they were not finite.
+    dropped, repeated: how many were left out because they were not finite, or because a later
+    one has their stamp.
     """
 
+    topic: str
     stamp: Stamps
     values: Array
     dropped: int
+    repeated: int
 
 
-def ordered(series: Series, by_header: bool) -> Ordered:
-    """Sort by one of the clocks; of equal stamps keep the last; leave out what is not finite.
+def ordered(series: Series, stamp: Stamps) -> Ordered:
+    """Sort by stamps of one clock; of equal stamps keep the last; leave out what is not finite.
 
-    Raises BagError when the clock jumps or more than 1 % of the messages are not finite.
+    Raises BagError when the clock jumps, most stamps are those of other messages, or more than
+    1 % of the messages are not finite.
     """
-    stamp = series.stamped if by_header else series.received
     _check_clock(series.topic, stamp)
     finite = np.isfinite(series.values).all(axis=1)
     dropped = int(np.count_nonzero(~finite))
@@ -65,7 +68,14 @@ def ordered(series: Series, by_header: bool) -> Ordered:
     stamp, values = stamp[finite], series.values[finite]
     order = np.argsort(stamp, kind='stable')
     last = np.append(np.diff(stamp[order]) > 0, True)
-    return Ordered(stamp[order][last], values[order][last], dropped)
+    repeated = int(np.count_nonzero(~last))
+    if repeated > MOST_REPEATED * len(stamp):
+        raise BagError(
+            f'{series.topic}: {repeated} of {len(stamp)} messages bear the stamp of another one; '
+            'its clock stands still. Stamp each message when it is measured, or leave the stamps '
+            '0: then the times of receipt are used.'
+        )
+    return Ordered(series.topic, stamp[order][last], values[order][last], dropped, repeated)
 
 
 def held(series: Ordered, stamps: Stamps) -> Array:

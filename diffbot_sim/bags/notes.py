@@ -1,0 +1,91 @@
+"""What people should know of a recording before they believe what follows from it."""
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from diffbot_sim.bags.poses import is_half_filled
+from diffbot_sim.bags.series import NANOSECONDS, Ordered, Stamps
+from diffbot_sim.records import Run
+from diffbot_sim.standing import turning
+
+# A topic has a hole where it is silent for longer than this [s], and than so many usual intervals.
+LONGEST_SILENCE, USUAL_SILENCES = 1.0, 10.0
+MOST = 5  # holes that are told one by one
+# What is rarer is told, not what is usual: a share of the messages.
+OFTEN = 0.01
+
+
+def notes_on(usable: Mapping[str, Ordered], run: Run) -> Iterator[str]:
+    """Yield a line for each thing that was noticed; usable: by its role, what each topic held."""
+    odom = usable['odom']
+    start = int(min(item.stamp[0] for item in usable.values()))
+    for role, item in usable.items():
+        yield from _left_out(item)
+        if role == 'odom':
+            yield from _told(item, _silences(item), start, 'what happened there is unknown')
+            continue
+        held = [gap for gap in _silences(item) if _goes_on(odom, gap)]
+        yield from _told(item, held, start, 'the last force is taken to be held')
+        yield from _beyond(item, odom)
+    if is_half_filled(odom, run.odometry.time):
+        yield 'the poses never turn though the twists do; used the twists alone'
+    yield from _of_standing(run)
+
+
+def _left_out(item: Ordered) -> Iterator[str]:
+    if item.dropped:
+        yield f'left out {item.dropped} messages of {item.topic} that are not finite'
+    if item.repeated > OFTEN * len(item.stamp):
+        many = len(item.stamp) + item.repeated
+        yield (
+            f'{item.repeated} of {many} messages of {item.topic} bear the stamp of another; '
+            'used the last of each'
+        )
+
+
+def _silences(item: Ordered) -> list[Stamps]:
+    """Return the stamps around each time for which a topic is silent far longer than usual."""
+    steps = np.diff(item.stamp) / NANOSECONDS
+    usual = np.median(steps) if steps.size else 0.0
+    holes = np.flatnonzero(steps > max(LONGEST_SILENCE, USUAL_SILENCES * usual))
+    return [item.stamp[i : i + 2] for i in holes]
+
+
+def _goes_on(item: Ordered, gap: Stamps) -> bool:
+    """Say whether a topic has messages within a gap of another."""
+    begin, end = np.searchsorted(item.stamp, gap, side='right')
+    return bool(end - begin > 1)
+
+
+def _told(item: Ordered, gaps: Sequence[Stamps], start: int, consequence: str) -> Iterator[str]:
+    if gaps:
+        times = ', '.join(
+            f'{(end - begin) / NANOSECONDS:.1f} s from {(begin - start) / NANOSECONDS:.1f} s on'
+            for begin, end in gaps[:MOST]
+        )
+        more = f' and {len(gaps) - MOST} more' if len(gaps) > MOST else ''
+        yield f'{item.topic} has holes: {times}{more}; {consequence}'
+
+
+def _beyond(item: Ordered, odom: Ordered) -> Iterator[str]:
+    """Tell where forces begin after the odometry, or end before it."""
+    late = _seconds(odom.stamp[:1], item.stamp[:1])
+    early = _seconds(item.stamp[-1:], odom.stamp[-1:])
+    if late > LONGEST_SILENCE:
+        yield f'{item.topic} begins {late:.1f} s after the odometry; taken as 0 until then'
+    if early > LONGEST_SILENCE:
+        yield f'{item.topic} ends {early:.1f} s before the odometry; its last force is held'
+
+
+def _seconds(begin: Stamps, end: Stamps) -> float:
+    return float((end - begin)[0]) / NANOSECONDS
+
+
+def _of_standing(run: Run) -> Iterator[str]:
+    seen = turning(run)
+    if seen.is_told:
+        yield (
+            f'odometry turns by {seen.rate:.4f} rad/s while the robot stands; '
+            'identify takes that off as the bias of a gyro, nothing else does'
+        )
