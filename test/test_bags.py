@@ -59,6 +59,12 @@ def test_one_robot_is_found_in_its_namespace(tmp_path):
     assert read_run(tmp_path / 'drive').run.odometry.time.size == 100
 
 
+def test_topics_written_without_their_slash_are_found(tmp_path):
+    bare = [m._replace(topic=m.topic.removeprefix('/')) for m in messages(drive())]
+    write_bag(tmp_path / 'drive', bare)
+    assert len(read_run(tmp_path / 'drive').run.commands.force) == 100
+
+
 def test_one_robot_of_several_can_be_named(tmp_path):
     bee = replace(drive(), commands=Commands(TIME, np.full((100, 2), 7.0)))
     write_bag(tmp_path / 'drive', messages(drive(), '/ant') + messages(bee, '/bee'))

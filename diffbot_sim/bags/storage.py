@@ -10,7 +10,7 @@ from rosbags.rosbag2 import Reader
 
 from diffbot_sim.bags.messages import STORE, odometry_row, wrench_row
 from diffbot_sim.bags.series import Series
-from diffbot_sim.bags.topics import Topics, find_topics
+from diffbot_sim.bags.topics import Topics, absolute, find_topics
 from diffbot_sim.errors import BagError
 
 STORAGE = ('.mcap', '.db3')
@@ -23,13 +23,14 @@ def read_series(path: Path, topics: Topics) -> dict[str, Series]:
     """Return what the topics of left_force, right_force and odom hold; raises BagError."""
     check_place(path)
     with opened(path) as reader:
-        there = {item.topic: item.msgtype for item in reader.connections if item.msgcount}
+        held = [item for item in reader.connections if item.msgcount]
+        there = {absolute(item.topic): item.msgtype for item in held}
         chosen = find_topics(there, topics)
         return {role: _read(reader, topic, role) for role, topic in chosen.items()}
 
 
 def _read(reader: Any, topic: str, role: str) -> Series:
-    sources = [item for item in reader.connections if item.topic == topic]
+    sources = [item for item in reader.connections if absolute(item.topic) == topic]
     received, stamped, rows = [], [], []
     for source, time, data in reader.messages(sources):
         message: Any = STORE.deserialize_cdr(data, source.msgtype)

@@ -30,7 +30,7 @@ class Topics:
 
     def __post_init__(self) -> None:
         for role, name in self.named().items():
-            object.__setattr__(self, role, '/' + name.strip('/'))
+            object.__setattr__(self, role, absolute(name))
 
     def named(self) -> dict[str, str]:
         """Return the names that are not None, by role."""
@@ -38,10 +38,15 @@ class Topics:
         return {role: name for role, name in names.items() if name is not None}
 
 
+def absolute(name: str) -> str:
+    """Return a topic's full name; not every writer of bags puts the slash before it."""
+    return '/' + name.strip('/')
+
+
 def find_topics(there: Mapping[str, str], given: Topics) -> dict[str, str]:
     """Return the topic for each role: the given ones, the others from one robot's namespace.
 
-    there: types by topic, of topics that hold messages. Raises BagError when the topics of
+    there: types by the full names of topics that hold messages. Raises BagError when the topics of
     one robot are not found, when there are several robots, or when a type is wrong.
     """
     robots = {name: _robot(name, there, given).named() for name in _namespaces(there)}
