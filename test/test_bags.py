@@ -8,6 +8,7 @@ from drives import LEFT, ODOM, RIGHT, START, TIME, drive, messages, stamped
 from diffbot_sim.bags import Topics, read_run, write_run
 from diffbot_sim.bags.folder import Message, write_bag
 from diffbot_sim.bags.messages import wrench
+from diffbot_sim.bags.raw import topics_in
 from diffbot_sim.records import Commands
 
 
@@ -63,6 +64,7 @@ def test_topics_written_without_their_slash_are_found(tmp_path):
     bare = [m._replace(topic=m.topic.removeprefix('/')) for m in messages(drive())]
     write_bag(tmp_path / 'drive', bare)
     assert len(read_run(tmp_path / 'drive').run.commands.force) == 100
+    assert set(topics_in(tmp_path / 'drive')) == {LEFT, RIGHT, ODOM}
 
 
 def test_one_robot_of_several_can_be_named(tmp_path):

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from diffbot_sim.bags import storage
 from diffbot_sim.bags.messages import STORE
+from diffbot_sim.bags.topics import absolute
 from diffbot_sim.errors import BagError
 
 
@@ -39,9 +40,10 @@ def is_standard(kind: str) -> bool:
 
 
 def topics_in(bag: Path) -> dict[str, str]:
-    """Return the types of all topics that hold messages, by name; raises BagError."""
+    """Return the types of all topics that hold messages, by full name; raises BagError."""
     with _opened(bag) as reader:
-        return {item.topic: item.msgtype for item in reader.connections if item.msgcount}
+        held = [item for item in reader.connections if item.msgcount]
+        return {absolute(item.topic): item.msgtype for item in held}
 
 
 def span_of(bag: Path) -> tuple[int, int]:
@@ -53,9 +55,9 @@ def span_of(bag: Path) -> tuple[int, int]:
 def raw_messages(bag: Path, topics: Collection[str], start: int = 0) -> Iterator[Raw]:
     """Read the messages of some topics from a moment [ns] on, as received; raises BagError."""
     with _opened(bag) as reader:
-        sources = [item for item in reader.connections if item.topic in topics]
+        sources = [item for item in reader.connections if absolute(item.topic) in topics]
         for source, stamp, data in reader.messages(sources, start) if sources else ():
-            yield Raw(stamp, source.topic, source.msgtype, data)
+            yield Raw(stamp, absolute(source.topic), source.msgtype, data)
 
 
 @contextmanager
