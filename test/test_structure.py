@@ -201,10 +201,10 @@ def test_load_that_swings_is_told_by_how_often() -> None:
     assert left.basis.grid == pytest.approx([1.1], rel=0.2)
 
 
-def test_caster_that_swivels_is_told_by_the_way_since_turning_back() -> None:
-    pivot = {'caster_ahead': -0.3, 'caster_trail': 0.04}
-    left = left_by_peer(caster_swivel=0.03, **pivot)
-    assert left.basis.variable in ('way_since_reversal', 'turn_since_reversal')
+@pytest.mark.parametrize('rubs', [{'caster_swivel': 0.03}, {'caster_roll': 0.8}])
+def test_caster_is_told_by_where_it_would_have_swivelled_to(rubs: dict[str, float]) -> None:
+    left = left_by_peer(caster_ahead=-0.3, caster_trail=0.04, **rubs)
+    assert left.basis.variable == 'caster'
 
 
 def test_friction_that_differs_backward_is_told_as_a_push_one_way() -> None:

@@ -11,6 +11,7 @@ from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, predictions
 from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.identification.free_forms.bases import Basis
+from diffbot_sim.identification.free_forms.caster import swivelled
 from diffbot_sim.identification.free_forms.forms import Growth, Spans
 from diffbot_sim.identification.free_forms.past import PAST
 from diffbot_sim.identification.free_forms.starting import START, rest_before, started
@@ -71,6 +72,28 @@ def test_friction_is_alike_both_ways(view: View, name: str) -> None:
     total = form.columns(view, knots).sum(axis=1)
     speed = {'rolling': view.wheel_speed, 'turning': view.omega[:, None]}[name]
     np.testing.assert_allclose(total, np.sign(speed), atol=1e-12)
+
+
+def test_caster_swings_round_where_the_robot_turns_back() -> None:
+    time = np.arange(0.0, 4.0, 0.02)
+    v, omega = np.where(time < 2.0, 0.5, -0.5), np.where(time < 1.0, 0.3, 0.0)
+    angle = swivelled(time, v, omega, -0.2, 0.04)
+    np.testing.assert_allclose(np.cos(angle[[99, -1]]), [1.0, -1.0], atol=0.01)
+
+
+def test_caster_swivels_alike_with_fewer_samples() -> None:
+    time = np.arange(0.0, 4.0, 0.005)
+    v, omega = np.cos(time), np.sin(3.0 * time)
+    fine, coarse = (swivelled(time[::n], v[::n], omega[::n], -0.3, 0.06)[-1] for n in (1, 4))
+    np.testing.assert_allclose(fine, coarse, atol=0.05)
+
+
+def test_caster_takes_power_and_never_gives_any(view: View) -> None:
+    form = VARIABLES['caster'].form
+    for place in form.grids([view]):
+        power = np.einsum('kqc,kc->kq', form.columns(view, place), view.wheel_speed)
+        assert power.max() <= 0.0
+        assert power.min() < 0.0
 
 
 def test_line_and_curve_are_tried_from_end_to_end(view: View) -> None:

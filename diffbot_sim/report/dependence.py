@@ -63,6 +63,7 @@ ANGLES = (
     'rhythm',
     'gain_rhythm',
     'force_steps',
+    'caster',
 )
 # Of variables in which structure without a name is looked for; the others are those above.
 STRUCTURE_LABELS = {
@@ -83,6 +84,7 @@ STRUCTURE_LABELS = {
     'way_since_reversal': 'way of a wheel since it turned back [m]',
     'time_since_reversal': 'time since the command changed its sign [s]',
     'turn_since_reversal': 'turn since ω changed its sign [rad]',
+    'caster': 'rolling direction of a caster [°]',
     'swing': 'time after a jump of v by 1 m/s [s]',
     'yaw_swing': 'time after a jump of ω by 1 rad/s [s]',
     'drive': 'force that drives a wheel, or brakes it [N]',

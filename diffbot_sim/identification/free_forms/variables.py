@@ -16,6 +16,7 @@ from diffbot_sim.identification.fitting.periodicity import (
     wheel_orders,
 )
 from diffbot_sim.identification.fitting.views import View
+from diffbot_sim.identification.free_forms.caster import Caster
 from diffbot_sim.identification.free_forms.floor import Order, by_place, in_time
 from diffbot_sim.identification.free_forms.forms import (
     BENT_KNOTS,
@@ -68,7 +69,17 @@ LOOKED_AT = 1000
 CREEPING = (0.0, 0.005, 0.02, 0.08)
 NEAR_REST = ((0.0,), CREEPING)
 Form = (
-    Constant | Piecewise | Growth | Spans | TwoSided | Odd | Periodic | Past | Swinging | Warming
+    Constant
+    | Piecewise
+    | Growth
+    | Spans
+    | TwoSided
+    | Odd
+    | Periodic
+    | Past
+    | Swinging
+    | Warming
+    | Caster
 )
 BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
 
@@ -219,6 +230,7 @@ VARIABLES = {
         Spans(turned_since, turning, ANGLES),
         ('omega',),
     ),
+    'caster': Variable('where a caster would have swivelled to', Caster(), ('wheels',)),
     'swing': Variable(
         'how something swings along the robot, {rate:.3g} times a second',
         Swinging(lambda view: view.simulated[:, 0]),
