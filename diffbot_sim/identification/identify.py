@@ -7,6 +7,7 @@ from diffbot_sim.identification.conclusions.advice import advice
 from diffbot_sim.identification.conclusions.agreement import agreement
 from diffbot_sim.identification.conclusions.comparison import compare_models, errors_of
 from diffbot_sim.identification.conclusions.empirical import table_of, with_term
+from diffbot_sim.identification.conclusions.following import follows_nothing
 from diffbot_sim.identification.conclusions.horizons import horizons
 from diffbot_sim.identification.conclusions.uncertainty import estimates
 from diffbot_sim.identification.fitting.calibration import simulation_error
@@ -51,8 +52,9 @@ def identify(
     given = Recordings(tuple(runs), tuple(validate))
     recordings = given.each(unbiased)
     found = search(recordings, declared, _candidates(declared, kinds), progress)
-    selection, unexplained, held_out = found.selection, found.unexplained, found.held_out
+    selection, held_out = found.selection, found.held_out
     final = _for_simulation(selection, found.recalibrated)
+    unexplained = found.unexplained or follows_nothing(final, held_out)
     closed = unexplained and with_term(final, unexplained, held_out)
     final = closed or final
     # Whatever gave the parameters, the noise model that the disturbances call for watches them.
@@ -60,7 +62,8 @@ def identify(
     models, known = (declared, found.recalibrated.model, final.model), estimates(final)
     comparisons = compare_models(declared, found.recalibrated.model, watched, held_out)
     errors = errors_of(comparisons, 'validate' if validate else 'held_out')
-    progress('holding the runs against each other')
+    if len(given.all) > 1:
+        progress('holding the runs against each other')
     return Identification(
         verdict=_verdict(selection, unexplained),
         effects=_effects(selection, known),

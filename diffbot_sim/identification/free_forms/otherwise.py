@@ -32,11 +32,22 @@ FOLLOWING = np.array([0.9, 0.0, 0.0, 0.9, 0.0, 0.0])
 
 
 def moves_otherwise(fit: Fit, held_out: Sequence[Stretch]) -> Structure | None:
-    """Return the force that a fit lacks in held-out data alone, if there is one."""
+    """Return the force that a fit lacks in held-out data alone, if there is one.
+
+    Told of the run that it acts in most.
+    """
     begun = restarted(fit.model, held_out, MAX_STEP)
     excess = excess_of(fit, begun)
     axis = int(np.argmax(excess))
-    return _described(fit, begun, axis) if excess[axis] > MUCH else None
+    if excess[axis] <= MUCH:
+        return None
+    most = max(begun, key=lambda stretch: float(excess_of(fit, (stretch,))[axis]))
+    whose = f' of {most.run.name}' if len(begun) > 1 else ''
+    words = (
+        f'that acts in the held-out data{whose} alone, not where the model was fitted, and that '
+        'no effect of the library accounts for'
+    )
+    return force_over_time(fit, most, axis, words)
 
 
 def excess_of(fit: Fit, held_out: Sequence[Stretch]) -> Array:
@@ -52,17 +63,18 @@ def _weights(squares: Array, parts: int) -> Array:
     return np.array([part.mean(axis=0) for part in np.array_split(squares, parts)])
 
 
-def _described(fit: Fit, begun: tuple[Stretch, ...], axis: int) -> Structure:
-    following = replace(fit, stretches=begun[:1], gains=FOLLOWING)
+def force_over_time(fit: Fit, stretch: Stretch, axis: int, words: str) -> Structure:
+    """Return the force, or torque, that a fit lacks in a stretch, over time.
+
+    words: what is said of it, after its size.
+    """
+    following = replace(fit, stretches=(stretch,), gains=FOLLOWING)
     (view,), (response,) = views(following, following.stretches), responses(following)
     knots, force, error = over_time(view, response, axis)
     strength = float(np.sqrt(np.mean(force**2)))
     kind, unit = FORCES[BODY[axis]]
     return Structure(
-        description=(
-            f'a {kind} of {strength:.3g} {unit} rms that acts in the held-out data alone, not '
-            'where the model was fitted, and that no effect of the library accounts for'
-        ),
+        description=f'a {kind} of {strength:.3g} {unit} rms {words}',
         axis=BODY[axis],
         variable='time_of_push',
         strength=strength,
