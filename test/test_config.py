@@ -150,6 +150,7 @@ def test_wrong_parameters_are_named_with_what_is_valid(tmp_path, text, expected)
         ('robot: {mass: 1.0}', "no parameters for the simulator. The file starts with '/**:'"),
         ('/**: {ros__parameters: }', 'ros__parameters holds None'),
         ('/**:\n  robot: [1.0', 'line 2: '),
+        ('a: {b: 1,\n  b: 2}', 'line 2: b stands twice'),
         ('a: \x01', 'not YAML'),
     ],
 )

@@ -1,5 +1,6 @@
 """`identify`: bags in, report, model and residual out."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -44,10 +45,44 @@ def test_runs_and_validation_reach_identification_apart(bag, monkeypatch):
     )
     monkeypatch.setattr(identify, 'save', lambda *results: None)
     monkeypatch.setattr(identify, 'print_summary', lambda result: None)
-    assert main([*words(bag), '--validate', str(bag), str(bag)], 'identify') == 0
+    others = [bag.parent / day / 'drive' for day in ('monday', 'tuesday')]
+    for other in others:
+        write_run(other, drive(), START)
+    assert main([*words(bag), '--validate', *map(str, others)], 'identify') == 0
     ((runs, validate),) = seen
     assert [run.name for run in runs] == ['drive_1']
     assert [run.name for run in validate] == ['drive_2', 'drive_3']
+
+
+def test_names_stay_apart_whatever_they_were(bag):
+    runs = [RecordedRun(replace(drive(), name=name), START) for name in ('a', 'a_1', 'a')]
+    assert [item.run.name for item in identify.distinct(runs)] == ['a_2', 'a_1', 'a_3']
+
+
+def test_bag_is_not_taken_twice(bag, capsys):
+    assert main([*words(bag), '--validate', str(bag)], 'identify') == 1
+    assert 'given twice' in capsys.readouterr().err
+
+
+def test_parameter_file_is_not_overwritten_by_the_result(bag, capsys):
+    own = bag.parent / 'model.yaml'
+    own.write_text(SAMPLE.read_text())
+    said = [str(bag), '--params', str(own), '--out', str(bag.parent)]
+    assert main(said, 'identify') == 1
+    assert 'would take its place' in capsys.readouterr().err
+    assert own.read_text() == SAMPLE.read_text()
+
+
+def test_lengths_that_nobody_gave_are_told(bag, monkeypatch, capsys):
+    monkeypatch.setattr(identify, 'identify', lambda *runs, **options: found())
+    own = bag.parent / 'own.yaml'
+    own.write_text('/**:\n  ros__parameters:\n    robot: {mass: 8.0, wheel_radius: 0.1}\n')
+    assert (
+        main([str(bag), '--params', str(own), '--out', str(bag.parent / 'out')], 'identify') == 0
+    )
+    told = [line for line in capsys.readouterr().err.splitlines() if 'is not given' in line]
+    assert len(told) == 1
+    assert 'robot.wheel_separation is not given; 0.4 m is taken' in told[0]
 
 
 def test_nothing_is_written_when_identification_fails(bag, monkeypatch):

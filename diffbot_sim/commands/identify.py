@@ -4,18 +4,23 @@ import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import count
 from pathlib import Path
 
 from diffbot_sim import __version__
 from diffbot_sim.bags import RecordedRun, check_replaceable, write_series
 from diffbot_sim.commands._recordings import add_topic_options, check_out, read_bags
 from diffbot_sim.commands._residual import residual_series
-from diffbot_sim.config import load_model, save_model
+from diffbot_sim.config import left_out, load_model, save_model
+from diffbot_sim.errors import DiffbotError
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.result import Identification
+from diffbot_sim.physics.model import Model
 from diffbot_sim.report import print_summary, write_report
 
-RESIDUAL = 'residual'
+RESIDUAL, MODEL = 'residual', 'model.yaml'
+# Lengths that nothing in a drive tells, so that they are not fitted.
+LENGTHS = ('wheel_separation', 'wheel_radius')
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -24,7 +29,11 @@ def add_arguments(parser: ArgumentParser) -> None:
         'bags', type=Path, nargs='+', metavar='BAG', help='rosbag2 folders, .mcap or .db3 files'
     )
     parser.add_argument(
-        '--params', required=True, metavar='FILE', help='parameter file (YAML) with what is known'
+        '--params',
+        type=Path,
+        required=True,
+        metavar='FILE',
+        help='parameter file (YAML) with what is known',
     )
     parser.add_argument(
         '--out', type=Path, required=True, metavar='DIR', help='folder for the results'
@@ -42,27 +51,54 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> None:
     """Identify; nothing is written before that has succeeded."""
-    check_out(arguments.out, [*arguments.bags, *arguments.validate])
+    bags = [*arguments.bags, *arguments.validate]
+    check_out(arguments.out, bags)
     check_replaceable(arguments.out / RESIDUAL)
-    declared = load_model(arguments.params)
-    recorded = distinct(read_bags([*arguments.bags, *arguments.validate], arguments))
+    _check_apart(bags)
+    declared = _declared(arguments.params, arguments.out)
+    recorded = distinct(read_bags(bags, arguments))
     runs = [item.run for item in recorded]
-    count = len(arguments.bags)
-    result = identify(runs[:count], declared, runs[count:], progress=_tell)
-    save(result, arguments.out, recorded[:count], recorded[count:])
+    learned = len(arguments.bags)
+    result = identify(runs[:learned], declared, runs[learned:], progress=_tell)
+    save(result, arguments.out, recorded[:learned], recorded[learned:])
     print_summary(result)
     print(f'report: {arguments.out / "report.html"}')
+
+
+def _check_apart(bags: Sequence[Path]) -> None:
+    """Refuse a bag that is given twice: it would be counted, or judged, as if it were another."""
+    places = [bag.resolve() for bag in bags]
+    for index, bag in enumerate(bags):
+        if places[index] in places[:index]:
+            raise DiffbotError(f'{bag}: given twice. Give each bag once, to learn or --validate.')
+
+
+def _declared(params: Path, out: Path) -> Model:
+    """Read the declared model, and tell which lengths it takes from nobody."""
+    if params.resolve() == (out / MODEL).resolve():
+        raise DiffbotError(
+            f'{params}: the result would take its place. Choose another folder for --out.'
+        )
+    declared = load_model(params)
+    for name in left_out(params, 'robot', LENGTHS):
+        value = getattr(declared.robot, name)
+        _tell(f'note: {params}: robot.{name} is not given; {value:g} m is taken, and not fitted')
+    return declared
 
 
 def distinct(recorded: Sequence[RecordedRun]) -> list[RecordedRun]:
     """Number runs of equal name, since results refer to runs by name."""
     names = [item.run.name for item in recorded]
-    return [
-        replace(item, run=replace(item.run, name=f'{name}_{i + 1}'))
-        if names.count(name) > 1
-        else item
-        for i, (name, item) in enumerate(zip(names, recorded, strict=True))
-    ]
+    taken = {name for name in names if names.count(name) == 1}
+    found = []
+    for item in recorded:
+        name = item.run.name
+        if names.count(name) > 1:
+            numbered = (f'{name}_{number}' for number in count(1))
+            name = next(free for free in numbered if free not in taken)
+            taken.add(name)
+        found.append(replace(item, run=replace(item.run, name=name)))
+    return found
 
 
 def save(
@@ -73,7 +109,7 @@ def save(
 ) -> None:
     """Write report.json, report.html, model.yaml and the residual bag."""
     write_report(result, out)
-    save_model(result.identified, out / 'model.yaml', _origin(result, recorded))
+    save_model(result.identified, out / MODEL, _origin(result, recorded))
     starts = {item.run.name: item.start_ns for item in (*recorded, *validate)}
     first = min(starts.values())
     series = residual_series(result.comparisons, {n: s - first for n, s in starts.items()})

@@ -12,7 +12,19 @@ from diffbot_sim.errors import ConfigError
 
 
 class _Loader(yaml.SafeLoader):
-    """Reads 1e-3 as a number, as ROS does; YAML 1.1 alone wants 1.0e-3."""
+    """Reads 1e-3 as a number, as ROS does; YAML 1.1 alone wants 1.0e-3. Refuses a key twice."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        """Return a mapping; the last of two equal keys would win without a word."""
+        mapping: dict[Any, Any] = super().construct_mapping(node, deep)
+        if len(mapping) < len(node.value):
+            keys = [self.construct_object(key, deep=True) for key, _ in node.value]
+            index = next(i for i, key in enumerate(keys) if key in keys[:i])
+            mark = node.value[index][0].start_mark
+            raise yaml.constructor.ConstructorError(
+                None, None, f'{keys[index]} stands twice; keep one', mark
+            )
+        return mapping
 
 
 _Loader.add_implicit_resolver(

@@ -1,6 +1,6 @@
 """Parameter files: the ROS 2 form of a model's parameters."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +34,12 @@ def load_section(path: str | Path, name: str, kind: type[Part], option: str = '-
     if faults:
         raise ConfigError(f'{path}: ' + '; '.join(faults))
     return part
+
+
+def left_out(path: str | Path, section: str, keys: Sequence[str]) -> list[str]:
+    """Return which keys of a section a parameter file leaves to their defaults."""
+    given = _merged(path, '--params').get(section)
+    return [key for key in keys if not isinstance(given, Mapping) or key not in given]
 
 
 def save_model(model: Model, path: str | Path, comment: str = '') -> None:
