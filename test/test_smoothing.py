@@ -49,7 +49,7 @@ def test_pose_integrated_from_the_twist_is_no_source_of_it() -> None:
 def test_smoothed_twists_make_no_robot_strange() -> None:
     answer = identify([tracked(Model(), 4)], Model())
     assert answer.verdict == 'nothing_missing'
-    assert [timing.taken for timing in answer.timings] == ['pose']
+    assert [timing.taken for timing in answer.timings] == ['smoothed']
 
 
 def test_effect_is_found_behind_smoothed_twists() -> None:

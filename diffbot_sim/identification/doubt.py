@@ -110,7 +110,7 @@ def doubt(selection: Selection, held_out: Sequence[Stretch], look: Look = Seen) 
     name, left = _needless_name(seen) or _outdone_name(seen) or _left_over(seen)
     if not name:
         return Doubted(selection, left, seen.near_rest)
-    doubted = doubt(selection.withdrawn(name), held_out, look)
+    doubted = doubt(selection.withdrawn(name, held_out), held_out, look)
     # There is structure, if only what the name went for.
     return doubted._replace(unexplained=doubted.unexplained or left)
 

@@ -45,7 +45,7 @@ def _errors(result: Identification) -> list[str]:
         'recorded forces alone, never corrected on the way. Pose and rest are as measured at the '
         'start; a robot in motion begins with the speeds that fit the first second best.',
         'The noise floor is the error that a perfect model would still have: '
-        'measurement noise, taken as white.',
+        'measurement noise, taken as white, or the steps of a coarse encoder.',
         'Intervals are 95 % intervals, each for its parameter alone; at a bound they mean little.',
         'Gravity is 9.80665 m/s².',
     ]
@@ -55,8 +55,8 @@ def _decisions() -> list[str]:
     return [
         'An effect enters when three tests agree: likelihood ratio '
         f'(p < {guards.LIKELIHOOD_LEVEL:g}, corrected for the number of effects tried), the '
-        f'same against serial correlation (p < {guards.BLOCK_LEVEL:g}) and a gain on data that it '
-        f'was not fitted to (p < {guards.ELSEWHERE_LEVEL:g}).',
+        'same against serial correlation, and a gain on data that it was not fitted to (neither '
+        f'p above {guards.EITHER_LEVEL:g}, both together p < {guards.BOTH_LEVEL:.2g}).',
         'Effects were chosen with all fitted runs. A run disagrees when a parameter differs from '
         f'that of the others (p < {agreement.LEVEL:g}, corrected for runs and parameters) by more '
         f'than {100 * agreement.IMMATERIAL:g} %.',

@@ -26,6 +26,7 @@ PUSHED = '; what lies between follows nothing that was recorded, as pushes of an
 
 TIMINGS = {
     'pose': 'the twists are means over what the poses tell, {} late; that was used instead.',
+    'smoothed': 'the twists are no sharper than the changes of the poses, which were used.',
     'mean': 'the twists were taken as {} older than their stamps, as means over the past are; if '
     'they are not, it is the robot that is so much late.',
     'speed': 'the speeds alone were taken as {} older than their stamps, as those of encoders '

@@ -87,7 +87,8 @@ def timing(given: Run, taken: Run) -> Timing | None:
     if after is before:
         return None
     if after.twist is not before.twist:
-        return Timing(given.name, max(0.0, lag_behind_pose(before)), 'pose')
+        lag = lag_behind_pose(before)
+        return Timing(given.name, max(0.0, lag), 'pose' if lag > 0.0 else 'smoothed')
     what: Literal['mean', 'speed'] = 'mean' if all(after.means) else 'speed'
     return Timing(given.name, half_interval(given), what)
 

@@ -1,6 +1,6 @@
 """Which effects enter: forward while the evidence is beyond doubt, then backward."""
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, replace
 from operator import itemgetter
 
@@ -11,7 +11,14 @@ from diffbot_sim.identification.selection.candidates import approach, begun_anew
 from diffbot_sim.identification.selection.evidence import Evidence, compare
 from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE, comes_up
 from diffbot_sim.identification.selection.screening import Screen
-from diffbot_sim.identification.selection.trials import OUTDONE, Progress, Trial, try_all
+from diffbot_sim.identification.selection.trials import (
+    CROWDED,
+    NEEDLESS,
+    OUTDONE,
+    Progress,
+    Trial,
+    try_all,
+)
 from diffbot_sim.identification.statistics.guards import may_be_chance
 from diffbot_sim.physics.effects import Effect
 
@@ -36,18 +43,19 @@ class Selection:
     support: dict[str, Evidence]
     alternatives: dict[str, tuple[str, ...]]
 
-    def withdrawn(self, name: str) -> 'Selection':
-        """Return the selection without one of the effects chosen."""
+    def withdrawn(self, name: str, held_out: Sequence[Stretch]) -> 'Selection':
+        """Return the selection without one of the effects chosen, the others weighed anew."""
         kept, final = [key for key in self.support if key != name], self.without[name]
+        without = {key: reduce(final, key) for key in kept}
         return replace(
             self,
             final=final,
-            without={key: reduce(final, key) for key in kept},
+            without=without,
             trials=tuple(
                 replace(trial, outcome=OUTDONE) if trial.kind.name == name else trial
                 for trial in self.trials
             ),
-            support={key: self.support[key] for key in kept},
+            support={key: compare(rest, final, held_out) for key, rest in without.items()},
             alternatives={key: self.alternatives[key] for key in kept},
         )
 
@@ -71,13 +79,21 @@ def select(
         path.append(Screen(shaken(begun_anew(best))))
     fits = [screen.fit for screen in path]
     final, without, support = _prune(fits, len(kinds), held_out, progress)
-    chosen = set(without)
-    trials = sorted(last.values(), key=lambda t: (t.kind.name in chosen, t.evidence.delta_bic))
+    entered = {kind.name for kind in fits[-1].space.kinds}
+    told = [_outcome(trial, trial.kind.name in entered, without) for trial in last.values()]
+    trials = sorted(told, key=lambda t: (t.kind.name in without, t.evidence.delta_bic))
     alternatives = {
         name: _alternatives(final, name, _screened(rest, path), kinds, progress)
         for name, rest in without.items()
     }
     return Selection(base, final, tuple(reversed(trials)), without, support, alternatives)
+
+
+def _outcome(trial: Trial, entered: bool, chosen: Container[str]) -> Trial:
+    """Return a trial with what came of it after it was accepted."""
+    if not trial.accepted or trial.kind.name in chosen:
+        return trial
+    return replace(trial, outcome=NEEDLESS if entered else CROWDED)
 
 
 def _prune(

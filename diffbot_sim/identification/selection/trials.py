@@ -39,6 +39,10 @@ INCREDIBLE = 'fits only with values that no robot has'
 BEREFT = 'nothing of it but what it shares with another effect'
 HEARD = 'only while the forces hardly change, as where a controller hears more than was recorded'
 UNSEEN = 'not excited by this drive'
+NEEDLESS = 'needless beside what else was found'
+CROWDED = 'no place left beside the effects found before'
+# Where these are said nothing speaks against the effect, or something else was told in its place.
+UNOPPOSED = (SUPPORTED, OUTDONE, HEARD, NEEDLESS, CROWDED)
 
 Progress = Callable[[str], None]
 
@@ -60,7 +64,7 @@ class Trial:
     @property
     def refused(self) -> bool:
         """Whether it was fitted to its end, and the evidence was not beyond doubt."""
-        return self.fit is not None and self.outcome not in (SUPPORTED, OUTDONE, HEARD)
+        return self.fit is not None and self.outcome not in UNOPPOSED
 
 
 @dataclass(frozen=True)
