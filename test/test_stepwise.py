@@ -4,11 +4,21 @@ import pytest
 from fits import SMOOTH, fitted
 
 from diffbot_sim.control.rehearsal import random_forces, rehearse
+from diffbot_sim.identification.selection.candidates import approach, complete
+from diffbot_sim.identification.selection.evidence import likelihood_ratio, rise_without
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.stepwise import select
-from diffbot_sim.identification.selection.trials import NEEDLESS, SUPPORTED, try_all
+from diffbot_sim.identification.selection.trials import (
+    ESSENTIAL_SHARE,
+    NEEDLESS,
+    SUPPORTED,
+    try_all,
+)
 from diffbot_sim.physics import Model
+from diffbot_sim.physics.effects import Effect
+from diffbot_sim.physics.effects.actuator_saturation import ActuatorSaturation
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
+from diffbot_sim.physics.effects.voltage_limit import VoltageLimit
 
 
 @pytest.mark.parametrize(('coefficient', 'names'), [(0.013, []), (0.025, ['quadratic_drag'])])
@@ -22,3 +32,19 @@ def test_name_is_told_only_where_the_data_can_tell_it_from_none(
     found = select(fit, [QuadraticDrag], held_out, lambda text: None)
     assert list(found.support) == names
     assert [told.outcome for told in found.trials] == [SUPPORTED if names else NEEDLESS]
+
+
+@pytest.mark.parametrize(
+    ('acts', 'is_of_voltage'),
+    [(ActuatorSaturation(7.0), False), (VoltageLimit(8.0, 3.0), True)],
+)
+def test_limit_is_one_of_voltage_where_it_does_much_by_falling_with_speed(
+    acts: Effect, is_of_voltage: bool
+) -> None:
+    limited = Model(effects=(acts,))
+    without, _ = fitted(rehearse(limited, random_forces(3, 60.0, -9.0, 11.0), SMOOTH, 3))
+    screen = Screen(without)
+    fit = complete(approach(screen, VoltageLimit, screen.score(VoltageLimit)))
+    _, falls = fit.space.places('voltage_limit')
+    much = ESSENTIAL_SHARE * likelihood_ratio(without, fit)
+    assert (rise_without(fit, [falls]) > much) == is_of_voltage

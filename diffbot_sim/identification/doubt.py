@@ -3,13 +3,11 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import product
-from math import inf
 from typing import NamedTuple
 
 import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
-from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.free_forms.bases import again
 from diffbot_sim.identification.free_forms.dependence import Dependence, realised, worth_of
 from diffbot_sim.identification.free_forms.moments import pushed
@@ -18,12 +16,11 @@ from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
 from diffbot_sim.identification.free_forms.structure import dependences, describe, find_dependences
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
-from diffbot_sim.identification.selection.candidates import reduce
 from diffbot_sim.identification.selection.evidence import delta_bic
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.stepwise import Selection
-from diffbot_sim.identification.selection.trials import BEREFT, INCREDIBLE, Trial
 from diffbot_sim.identification.statistics.guards import BLOCK_LEVEL
+from diffbot_sim.identification.suspicion import WORTHIER, doubted_beside, suspected, weakest
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
 
@@ -34,19 +31,9 @@ TAKEN_SHARE = 0.5
 # Shares of what an effect explains. A law of the right form leaves less than the first to a free
 # form that is about the same: from which it takes more than the second.
 LEFT_SHARE, SAME_SHARE = 0.1, 0.15
-# No effect lowered the BIC by more than the first on any of 200 clean robots. A name that keeps
-# more beside what is left is no chance; nor is what lowers it by the second and may not enter.
-BEYOND_CHANCE, SUSPICIOUS = 25.0, 50.0
-# Beside names a law that is right to a seventh leaves this share of what they explain to others.
-SLIGHT = 0.02
-# A name that is worth less is believed beside what is left, or refused, if that explains less than
-# this share of it.
-WORTHIER = 0.5
-# Why an effect that explains much may not enter; where it is none of these, it does not last.
-REASONS = {
-    INCREDIBLE: 'only with values that no robot has',
-    BEREFT: 'only by what it shares with another effect',
-}
+# No effect lowered the BIC by more on any of 200 clean robots: a name that keeps more beside what
+# is left is no chance.
+BEYOND_CHANCE = 25.0
 # Friction near rest is allowed for in about its form: of what that explains, as much again as this
 # share may be left.
 ALLOWED_SHARE = 0.5
@@ -134,7 +121,7 @@ def _outdone_name(seen: Seen) -> Objection | None:
     if len(final.space.kinds) > 1:
         better = _outdone(selection.base, final, final.space.kinds)
         if better is not None:
-            return _weakest(selection)[1], describe(better, final)
+            return weakest(selection)[1], describe(better, final)
     return None
 
 
@@ -142,55 +129,32 @@ def _left_over(seen: Seen) -> Objection:
     """Return what is left beside all names, and the name that does not stand up to it."""
     selection, final = seen.selection, seen.selection.final
     beyond = find_dependences(Screen(final), seen.held_out)
-    found = [left for left in beyond if worth_of(left, final) > seen.allowed]
+    # What is allowed for excuses no name that is worth less than what is left.
+    allowed = min(seen.allowed, weakest(selection)[0])
+    found = [left for left in beyond if worth_of(left, final) > allowed]
     if not found:
-        return _suspicion(seen)
+        return _unfound(seen)
     for kind, left in product(final.space.kinds, found):
         rest = selection.without[kind.name]
         whole = _free_form_of(rest, final, left)
         if whole is not None:
             return kind.name, describe(whole, rest)
-    return '', describe(found[0], final)
+    refused = suspected(selection, seen.allowed)
+    name = doubted_beside(refused, selection) if refused else ''
+    return name, describe(found[0], final)
 
 
-def _suspicion(seen: Seen) -> Objection:
-    """Doubt silence, and the weakest name, beside a refused effect that is beyond chance."""
+def _unfound(seen: Seen) -> Objection:
+    """Doubt silence, and the weakest name, where no free form is left."""
     selection, final = seen.selection, seen.selection.final
-    refused = [t for t in selection.trials if t.refused and not t.evidence.is_contradicted]
-    most = max(refused, key=lambda t: t.evidence.delta_bic, default=None)
-    suspected = 0.0 if most is None else _worth_without_luck(most)
-    named = sum(evidence.delta_bic for evidence in selection.support.values())
-    if most is None or suspected < SUSPICIOUS + SLIGHT * named + seen.allowed:
+    refused = suspected(selection, seen.allowed)
+    if refused is None:
         # Beside a name moments may be its own misses.
         some = None if final.space.kinds else pushed(final)
         return '', some or moves_otherwise(final, seen.held_out)
     nearest = describe(dependences(Screen(final))[0], final)
-    words = f'something that {most.kind.name} explains in part, though {_but(most)}, or'
-    left = replace(nearest, description=f'{words} {nearest.description}')
-    worth, weakest = _weakest(selection)
-    return '' if WORTHIER * worth > suspected else weakest, left
-
-
-def _but(refused: Trial) -> str:
-    """Say why an effect that explains much may not enter."""
-    return REASONS.get(refused.outcome, 'not all along the runs')
-
-
-def _worth_without_luck(trial: Trial) -> float:
-    """Return by how much an effect lowers the BIC, held against its fit without the effect, too.
-
-    That may be better than the one that it was tried on: fits end in any of many hollows.
-    """
-    if trial.fit is None or trial.evidence.delta_bic < SUSPICIOUS:
-        return trial.evidence.delta_bic
-    alone = shaken(reduce(trial.fit, trial.kind.name))
-    return min(trial.evidence.delta_bic, delta_bic(alone, trial.fit))
-
-
-def _weakest(selection: Selection) -> tuple[float, str]:
-    """Return the least worth of a name, and which it is; infinite where there is none."""
-    worths = ((evidence.delta_bic, name) for name, evidence in selection.support.items())
-    return min(worths, default=(inf, ''))
+    left = replace(nearest, description=f'{refused.words}, or {nearest.description}')
+    return doubted_beside(refused, selection), left
 
 
 def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence | None:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from diffbot_sim.identification.doubt import SUSPICIOUS, doubt, with_friction_eased
+from diffbot_sim.identification.doubt import doubt, with_friction_eased
 from diffbot_sim.identification.fitting.calibration import calibrate, simulation_error
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filtering import filter_behind, unfiltered
@@ -23,6 +23,7 @@ from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure, Timing
 from diffbot_sim.identification.selection.stepwise import Selection, select
 from diffbot_sim.identification.selection.trials import Progress
+from diffbot_sim.identification.suspicion import SUSPICIOUS
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.model import Model
 

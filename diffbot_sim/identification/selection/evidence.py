@@ -242,6 +242,17 @@ def wald(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
     return wald_p(departure, spread[np.ix_(chosen, chosen)], blocks)
 
 
+def rise_without(fit: Fit, amounts: Sequence[int]) -> float:
+    """Return by how much the deviance rises where some amounts are neutral, by its curvature.
+
+    Too much where a noise model would follow what they no longer explain; never too little.
+    """
+    jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
+    spread = np.linalg.pinv(jacobian.T @ jacobian + np.diag(fit.prior_information))
+    departure = (fit.u - fit.space.prior())[amounts]
+    return float(departure @ np.linalg.pinv(spread[np.ix_(amounts, amounts)]) @ departure)
+
+
 def _began_late(fit: Fit, amounts: Sequence[int]) -> bool:
     """Say whether too few blocks know of some amounts to tell what is chance."""
     jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])

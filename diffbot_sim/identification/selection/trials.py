@@ -9,7 +9,13 @@ from scipy import stats
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, complete
-from diffbot_sim.identification.selection.evidence import Evidence, compare, wald
+from diffbot_sim.identification.selection.evidence import (
+    Evidence,
+    compare,
+    likelihood_ratio,
+    rise_without,
+    wald,
+)
 from diffbot_sim.identification.selection.feedback import is_of_feedback
 from diffbot_sim.identification.selection.rivals import comes_up
 from diffbot_sim.identification.selection.screening import PROMISING, Score, Screen
@@ -28,6 +34,9 @@ WORTH_APPROACHING, WORTH_COMPLETING = 0.1, 0.4
 # long as it promised less than that price to first order: where a noise model follows what is
 # missing, a few steps lead nowhere at first.
 HOPEFUL = 0.2
+# What makes an effect what it is explains, by its curvature, at least this share of what that
+# effect does. Of limits of voltage it was more than all; where others were taken for one, 0.02.
+ESSENTIAL_SHARE = 0.1
 
 SUPPORTED = 'supported'
 CHANCE = 'no better than chance'
@@ -146,18 +155,24 @@ def _completed(
     outcome = judge(evidence, tried)
     if outcome == SUPPORTED and kind.name in fit.incredible:
         outcome = INCREDIBLE
-    elif outcome == SUPPORTED and _is_bereft(fit, kind):
+    elif outcome == SUPPORTED and _is_bereft(fit, kind, likelihood_ratio(screen.fit, fit)):
         outcome = BEREFT
     elif outcome == SUPPORTED and is_of_feedback(fit, kind.name):
         outcome = HEARD
     return Trial(kind, fit, evidence, outcome)
 
 
-def _is_bereft(fit: Fit, kind: type[Effect]) -> bool:
-    """Say whether what makes an effect what it is may well be neutral."""
+def _is_bereft(fit: Fit, kind: type[Effect], explained: float) -> bool:
+    """Say whether what makes an effect what it is may be neutral, or explains next to nothing.
+
+    explained: by how much the deviance falls by the whole effect.
+    """
     places = zip(kind.specs(), fit.space.places(kind.name), strict=True)
     essential = [place for spec, place in places if spec.name in kind.essential]
-    return bool(essential) and wald(fit, essential, fit.space.shapes) > BLOCK_LEVEL
+    if not essential:
+        return False
+    little = rise_without(fit, essential) < ESSENTIAL_SHARE * explained
+    return little or wald(fit, essential, fit.space.shapes) > BLOCK_LEVEL
 
 
 def _dismissed(screen: Screen, kind: type[Effect], score: Score) -> Trial:

@@ -1,0 +1,73 @@
+"""Suspicion: an effect that explains too much for chance, and may not enter all the same."""
+
+from math import inf
+from typing import NamedTuple
+
+from diffbot_sim.identification.fitting.shaking import shaken
+from diffbot_sim.identification.selection.candidates import reduce
+from diffbot_sim.identification.selection.evidence import delta_bic
+from diffbot_sim.identification.selection.stepwise import Selection
+from diffbot_sim.identification.selection.trials import BEREFT, INCREDIBLE, Trial
+
+# No refused effect lowered the BIC by so much on any of 200 clean robots.
+SUSPICIOUS = 50.0
+# Beside names a law that is right to a seventh leaves this share of what they explain to others.
+SLIGHT = 0.02
+# A name that is worth less is believed beside what is left, or refused, if that explains less than
+# this share of it.
+WORTHIER = 0.5
+# Why an effect that explains much may not enter; where it is none of these, it does not last.
+REASONS = {
+    INCREDIBLE: 'only with values that no robot has',
+    BEREFT: 'only by what it shares with another effect',
+}
+
+
+class Suspected(NamedTuple):
+    """An effect that was refused, and by how much it lowers the BIC all the same."""
+
+    trial: Trial
+    worth: float
+
+    @property
+    def words(self) -> str:
+        """What is said of it before the nearest free form."""
+        but = REASONS.get(self.trial.outcome, 'not all along the runs')
+        return f'something that {self.trial.kind.name} explains in part, though {but}'
+
+
+def suspected(selection: Selection, allowed: float) -> Suspected | None:
+    """Return the refused effect that is most beyond chance, if one is.
+
+    allowed: by how much in BIC anything may seem to explain what was allowed for.
+    """
+    refused = [t for t in selection.trials if t.refused and not t.evidence.is_contradicted]
+    most = max(refused, key=lambda t: t.evidence.delta_bic, default=None)
+    if most is None:
+        return None
+    worth = _worth_without_luck(most)
+    named = sum(evidence.delta_bic for evidence in selection.support.values())
+    return Suspected(most, worth) if worth >= SUSPICIOUS + SLIGHT * named + allowed else None
+
+
+def doubted_beside(refused: Suspected, selection: Selection) -> str:
+    """Return the weakest name where it is not worth enough beside what was refused, or none."""
+    worth, name = weakest(selection)
+    return '' if WORTHIER * worth > refused.worth else name
+
+
+def weakest(selection: Selection) -> tuple[float, str]:
+    """Return the least worth of a name, and which it is; infinite where there is none."""
+    worths = ((evidence.delta_bic, name) for name, evidence in selection.support.items())
+    return min(worths, default=(inf, ''))
+
+
+def _worth_without_luck(trial: Trial) -> float:
+    """Return by how much an effect lowers the BIC, held against its fit without the effect, too.
+
+    That may be better than the one that it was tried on: fits end in any of many hollows.
+    """
+    if trial.fit is None or trial.evidence.delta_bic < SUSPICIOUS:
+        return trial.evidence.delta_bic
+    alone = shaken(reduce(trial.fit, trial.kind.name))
+    return min(trial.evidence.delta_bic, delta_bic(alone, trial.fit))
