@@ -92,6 +92,13 @@ class Ages:
             if is_beyond_doubt(older, dict(self._again)[older], self._recordings, kinds)
         ]
 
+    def timely(self, older: Older) -> Fit:
+        """Return the structure that was found on older twists, less what makes a robot late.
+
+        The search on these may have ended at a smaller one.
+        """
+        return _timely(dict(self._taken)[older])
+
     @property
     def is_undecided(self) -> bool:
         """Whether older twists would explain all as well by a robot that is less late."""
