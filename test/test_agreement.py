@@ -17,7 +17,7 @@ from diffbot_sim.records import Run
 
 ROBOT, HEAVY = Model(), Model(Robot(mass=12.0))
 ROUGH = Surroundings(roughness=0.3)
-GAINS = np.array([0.2, 0.03, 0.74, 0.3, 0.08, 0.74])
+GAINS = np.array([0.2, 0.03, 0.05, 0.3, 0.08, 0.05])
 
 
 def drives(*models: Model, around: Surroundings = ROUGH) -> list[Run]:

@@ -17,7 +17,7 @@ from diffbot_sim.physics.effects import library
 from diffbot_sim.records import Run
 
 NOISE = Surroundings()
-GAINS = np.array([0.1, 0.01, 0.8, 0.1, 0.01, 0.8])
+GAINS = np.array([0.1, 0.01, 0.1, 0.1, 0.01, 0.1])
 HEAVY = Model(Robot(mass=13.0))
 
 

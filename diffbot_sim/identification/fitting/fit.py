@@ -15,9 +15,9 @@ from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array
 
 # Where fits of the noise model start, and how far its gains may go: speed, disturbance, memory.
-FIRST_GAINS = np.array([0.05, 0.005, 0.9, 0.05, 0.005, 0.9])
-GAIN_LIMITS = (np.zeros(6), np.array([0.95, 0.5, 0.9999, 0.95, 0.5, 0.9999]))
-GAIN_PRIOR = np.array([0.0, 0.0, 0.9, 0.0, 0.0, 0.9])
+FIRST_GAINS = np.array([0.05, 0.005, 0.3, 0.05, 0.005, 0.3])
+GAIN_LIMITS = (np.zeros(6), np.array([0.95, 0.5, 0.999, 0.95, 0.5, 0.999]))
+GAIN_PRIOR = np.array([0.0, 0.0, 0.3, 0.0, 0.0, 0.3])
 # Evaluations in a round, and rounds at most, of fits that go on to the end.
 EVALUATIONS, ROUNDS = 10, 8
 # An error that is as bad as any.

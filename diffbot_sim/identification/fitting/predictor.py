@@ -41,10 +41,7 @@ from diffbot_sim.records import Array
 MAX_STEP = 0.02
 # In this time [s] wheels come to where they are measured to stand: noise of that is smoothed.
 ROLLED = 0.5
-# A disturbance's memory is told as the share of it that is left after this time [s]: over a second
-# a rough floor's and none at all would be next to the same number, where fits creep.
-REMEMBERED = 0.1
-# Gains: of speed, of the disturbance, and the disturbance's memory; v, then ω.
+# Gains: of speed, of the disturbance, and the disturbance's memory over one second; v, then ω.
 NO_GAIN = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 
 
@@ -152,8 +149,8 @@ def _predict(  # type: ignore[no-untyped-def]
             # What a force did all the while is at the end twice what it is on the mean.
             error_v, error_omega = (1.0 + means[0]) * error_v, (1.0 + means[1]) * error_omega
             correct(z, modes, b, gains[0] * error_v, gains[3] * error_omega)
-            pushing *= gains[2] ** (interval / REMEMBERED)
-            turning *= gains[5] ** (interval / REMEMBERED)
+            pushing *= gains[2] ** interval
+            turning *= gains[5] ** interval
             pushing += gains[1] * params[0] / interval * error_v
             turning += gains[4] * params[1] / interval * error_omega
             roll(params, z, way[k, 0], way[k, 1], 1.0 - exp(-interval / ROLLED))

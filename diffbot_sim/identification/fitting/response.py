@@ -11,7 +11,6 @@ import numpy as np
 from numba import types
 
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.fitting.predictor import REMEMBERED
 from diffbot_sim.identification.fitting.steps import Steps
 from diffbot_sim.identification.recordings.stretches import Stretch, largest_command
 from diffbot_sim.identification.statistics.parallel import each
@@ -80,8 +79,7 @@ def response(model: Model, stretch: Stretch, gains: Array, force: float) -> Resp
     intervals = np.diff(stretch.time, prepend=stretch.time[0] - stretch.interval)[:, None]
     at_end = 1.0 + np.array(stretch.run.odometry.means, dtype=float)
     gain = gains[[1, 4]] * at_end * body / intervals
-    memory = gains[[2, 5]] ** (intervals / REMEMBERED)
-    return Response(slopes, gains[[0, 3]] * at_end, gain, memory)
+    return Response(slopes, gains[[0, 3]] * at_end, gain, gains[[2, 5]] ** intervals)
 
 
 @compiled
