@@ -1,13 +1,21 @@
 """Whether twists are older than their stamps, or the robot is late."""
 
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
 import pytest
 
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, UNIT, Fit
 from diffbot_sim.identification.older import Older, is_taken
 from diffbot_sim.identification.recordings.lateness import TWIST, of_interval_before
+from diffbot_sim.identification.selection.evidence import delta_bic_of_both
+from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE
+from diffbot_sim.identification.statistics.memory import falls_beyond_past
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
+from diffbot_sim.records import Array
 
 
 def fit_of(*kinds: type) -> Fit:
@@ -29,3 +37,17 @@ def test_means_are_taken_where_they_explain_as_much_as_a_late_robot(worth, taken
 @pytest.mark.parametrize(('worth', 'taken'), [(-30.0, True), (-60.0, False)])
 def test_beside_a_force_without_a_name_they_may_explain_a_little_less(worth, taken):
     assert means_are_taken(worth, unexplained=800.0) == taken
+
+
+def leaving(errors: Array) -> Any:
+    """Return what is compared of a fit that leaves these errors."""
+    return SimpleNamespace(whitened=errors, sigma=np.ones(2), u=np.zeros(1))
+
+
+def test_sums_of_counts_that_a_fit_left_to_chance_decide_nothing() -> None:
+    counts = np.random.default_rng(1).normal(0.0, 0.7, (5000, 2))
+    first = np.diff(counts, axis=0)
+    # Next to nothing beside the noise of a sample, but it adds up, and counts do not.
+    second = first + 0.02 * np.sin(np.arange(len(first)) / 500.0)[:, None]
+    assert np.all(falls_beyond_past(first, second) < -30.0)
+    assert delta_bic_of_both(leaving(first), leaving(second)) > -INDISTINGUISHABLE

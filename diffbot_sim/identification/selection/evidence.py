@@ -138,15 +138,19 @@ def _delta_bics(first: Fit, second: Fit) -> Array:
 def _falls_beyond(first: Fit, second: Fit) -> Array:
     """Return by how much less the second's errors of v and ω weigh than the first's.
 
-    Beyond what their past tells where they are those of counts: each takes back the last one. If
-    they are much larger as they are, they are worse all the same.
+    As they are, or beyond what their past tells, whichever is more, where they are those of
+    counts: each takes back the last one. Fits that take errors as white leave sums of these to
+    chance, which weigh hundreds beyond their past; and where a controller hears counts, a late
+    robot seems to foresee them as they are. If they are much larger as they are, they are worse
+    all the same.
     """
     sigma = np.minimum(first.sigma, second.sigma)
     before, after = (fit.whitened * (fit.sigma / sigma) for fit in (first, second))
     weight, beyond = huber(before).sum(axis=0), falls_beyond_past(before, after)
     as_they_are = weight - huber(after).sum(axis=0)
     counted = np.sum(before[1:] * before[:-1], axis=0) < COUNTED * np.sum(before**2, axis=0)
-    return np.where(counted & (as_they_are > -MUCH_LARGER * weight), beyond, as_they_are)
+    alike = counted & (as_they_are > -MUCH_LARGER * weight)
+    return np.asarray(np.where(alike, np.maximum(beyond, as_they_are), as_they_are))
 
 
 def _price(first: Fit, second: Fit, samples: int) -> float:
