@@ -12,7 +12,6 @@ from peer_robots import MAKES, exact
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
-from diffbot_sim.identification.doubt import SUSPICIOUS
 from diffbot_sim.identification.free_forms.dependence import (
     Dependence,
     against_the_model,
@@ -22,6 +21,7 @@ from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.identification.free_forms.structure import dependences, find_dependences
 from diffbot_sim.identification.free_forms.warmth import lately
 from diffbot_sim.identification.selection.screening import Screen
+from diffbot_sim.identification.suspicion import SUSPICIOUS
 from diffbot_sim.physics import Model, simulate
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
 from diffbot_sim.physics.effects.direction_dependent_friction import DirectionDependentFriction
