@@ -32,8 +32,8 @@ STOREYS: list[set[str]] = [
     {'recordings'},
     {'fitting'},
     {'selection'},
-    {'free_forms', 'conclusions'},
-    {'doubt', 'older', 'leading', 'later'},
+    {'free_forms', 'conclusions', 'suspicion'},
+    {'doubt', 'following', 'older', 'leading', 'later'},
     {'search'},
     {'identify'},
 ]

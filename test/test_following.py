@@ -8,7 +8,7 @@ from fits import fitted
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
-from diffbot_sim.identification.conclusions.following import follows_nothing
+from diffbot_sim.identification.following import follows_nothing
 from diffbot_sim.identification.recordings.stretches import split
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.slope import Slope

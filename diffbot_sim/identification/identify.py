@@ -7,11 +7,11 @@ from diffbot_sim.identification.conclusions.advice import advice
 from diffbot_sim.identification.conclusions.agreement import agreement
 from diffbot_sim.identification.conclusions.comparison import compare_models, errors_of
 from diffbot_sim.identification.conclusions.empirical import table_of, with_term
-from diffbot_sim.identification.conclusions.following import follows_nothing
 from diffbot_sim.identification.conclusions.horizons import horizons
 from diffbot_sim.identification.conclusions.uncertainty import estimates
 from diffbot_sim.identification.fitting.calibration import simulation_error
 from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
+from diffbot_sim.identification.following import follows_nothing
 from diffbot_sim.identification.recordings.gyro import bias_of, unbiased
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.result import (
