@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from diffbot_sim.bags.poses import is_half_filled
+from diffbot_sim.bags.poses import is_filled
 from diffbot_sim.bags.series import NANOSECONDS, Ordered, Stamps
 from diffbot_sim.records import Run
 from diffbot_sim.standing import turning
@@ -16,10 +16,12 @@ MOST = 5  # holes that are told one by one
 OFTEN = 0.01
 
 
-def notes_on(usable: Mapping[str, Ordered], run: Run) -> Iterator[str]:
-    """Yield a line for each thing that was noticed; usable: by its role, what each topic held."""
+def notes_on(usable: Mapping[str, Ordered], run: Run, start: int) -> Iterator[str]:
+    """Yield a line for each thing that was noticed.
+
+    usable: by its role, what each topic held; start: the moment of run time 0 [ns].
+    """
     odom = usable['odom']
-    start = int(min(item.stamp[0] for item in usable.values()))
     for role, item in usable.items():
         yield from _left_out(item)
         if role == 'odom':
@@ -28,7 +30,7 @@ def notes_on(usable: Mapping[str, Ordered], run: Run) -> Iterator[str]:
         held = [gap for gap in _silences(item) if _goes_on(odom, gap)]
         yield from _told(item, held, start, 'the last force is taken to be held')
         yield from _beyond(item, odom)
-    if is_half_filled(odom, run.odometry.time):
+    if run.odometry.pose is None and is_filled(odom):
         yield 'the poses never turn though the twists do; used the twists alone'
     yield from _of_standing(run)
 
@@ -70,16 +72,12 @@ def _told(item: Ordered, gaps: Sequence[Stamps], start: int, consequence: str) -
 
 def _beyond(item: Ordered, odom: Ordered) -> Iterator[str]:
     """Tell where forces begin after the odometry, or end before it."""
-    late = _seconds(odom.stamp[:1], item.stamp[:1])
-    early = _seconds(item.stamp[-1:], odom.stamp[-1:])
+    late = (item.stamp[0] - odom.stamp[0]) / NANOSECONDS
+    early = (odom.stamp[-1] - item.stamp[-1]) / NANOSECONDS
     if late > LONGEST_SILENCE:
         yield f'{item.topic} begins {late:.1f} s after the odometry; taken as 0 until then'
     if early > LONGEST_SILENCE:
         yield f'{item.topic} ends {early:.1f} s before the odometry; its last force is held'
-
-
-def _seconds(begin: Stamps, end: Stamps) -> float:
-    return float((end - begin)[0]) / NANOSECONDS
 
 
 def _of_standing(run: Run) -> Iterator[str]:

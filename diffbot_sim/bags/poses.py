@@ -14,17 +14,14 @@ TWIST, POSE, ORIENTATION = slice(0, 2), slice(2, 8), slice(4, 8)
 TURNED = 0.5
 
 
-def without_broken(series: Series) -> tuple[Series, bool]:
-    """Return odometry with empty poses where too many are not finite, and whether that is so.
-
-    Their twists may serve all the same.
-    """
+def without_broken(series: Series) -> Series:
+    """Return odometry, with empty poses where too many are not finite: its twists may serve."""
     broken = ~np.isfinite(series.values[:, POSE]).all(axis=1)
     if np.mean(broken) <= MOST_UNUSABLE:
-        return series, False
+        return series
     values = series.values.copy()
     values[:, POSE] = 0.0
-    return replace(series, values=values), True
+    return replace(series, values=values)
 
 
 def pose_of(odom: Ordered, time: Array) -> Array | None:
@@ -37,10 +34,9 @@ def pose_of(odom: Ordered, time: Array) -> Array | None:
     return np.column_stack([odom.values[:, 2:4], heading])
 
 
-def is_half_filled(odom: Ordered, time: Array) -> bool:
-    """Say whether poses move, but never turn, though the twists do."""
-    filled = _is_oriented(odom.values) and not _is_at_origin(odom.values)
-    return filled and pose_of(odom, time) is None
+def is_filled(odom: Ordered) -> bool:
+    """Say whether somebody filled the poses, whatever they are worth."""
+    return _is_oriented(odom.values) and not _is_at_origin(odom.values)
 
 
 def _is_oriented(values: Array) -> bool:

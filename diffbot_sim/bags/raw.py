@@ -42,8 +42,7 @@ def is_standard(kind: str) -> bool:
 def topics_in(bag: Path) -> dict[str, str]:
     """Return the types of all topics that hold messages, by full name; raises BagError."""
     with _opened(bag) as reader:
-        held = [item for item in reader.connections if item.msgcount]
-        return {absolute(item.topic): item.msgtype for item in held}
+        return storage.types_in(reader)
 
 
 def span_of(bag: Path) -> tuple[int, int]:

@@ -49,8 +49,9 @@ def read_run(path: str | Path, topics: Topics | None = None) -> RecordedRun:
 
 
 def _recorded(name: str, series: Mapping[str, Series]) -> RecordedRun:
-    odometry, without_poses = without_broken(series['odom'])
-    series = {**series, 'odom': odometry}
+    whole = without_broken(series['odom'])
+    without_poses = whole is not series['odom']
+    series = {**series, 'odom': whole}
     # One clock for all three: times of receipt trail the stamps by an unknown delay.
     by_header = all(item.has_stamps for item in series.values())
     usable = {
@@ -63,7 +64,7 @@ def _recorded(name: str, series: Mapping[str, Series]) -> RecordedRun:
     start = int(min(stamps[0], odom.stamp[0]))
     force = np.column_stack([held(right, stamps), held(left, stamps)])
     run = Run(name, Commands(_seconds(stamps, start), force), _odometry(odom, start))
-    notes = list(notes_on(usable, run))
+    notes = list(notes_on(usable, run, start))
     if not by_header:
         notes.insert(0, 'not all messages are stamped; used the times of receipt')
     if without_poses:

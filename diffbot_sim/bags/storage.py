@@ -23,10 +23,14 @@ def read_series(path: Path, topics: Topics) -> dict[str, Series]:
     """Return what the topics of left_force, right_force and odom hold; raises BagError."""
     check_place(path)
     with opened(path) as reader:
-        held = [item for item in reader.connections if item.msgcount]
-        there = {absolute(item.topic): item.msgtype for item in held}
-        chosen = find_topics(there, topics)
+        chosen = find_topics(types_in(reader), topics)
         return {role: _read(reader, topic, role) for role, topic in chosen.items()}
+
+
+def types_in(reader: Any) -> dict[str, str]:
+    """Return the types of all topics that hold messages, by full name."""
+    held = [item for item in reader.connections if item.msgcount]
+    return {absolute(item.topic): item.msgtype for item in held}
 
 
 def _read(reader: Any, topic: str, role: str) -> Series:

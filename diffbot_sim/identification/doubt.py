@@ -139,7 +139,7 @@ def _left_over(seen: Seen) -> Objection:
         whole = _free_form_of(rest, final, left)
         if whole is not None:
             return kind.name, describe(whole, rest)
-    refused = suspected(selection, seen.allowed)
+    refused = suspected(selection, seen.allowed) if selection.support else None
     name = doubted_beside(refused, selection) if refused else ''
     return name, describe(found[0], final)
 

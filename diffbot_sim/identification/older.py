@@ -76,7 +76,7 @@ class Ages:
         """
         interval = min(median_interval(run.odometry.time) for run in self._recordings.learned)
         needless = 0.0 < _lateness(self._final) < interval
-        fits = [(o, _timely(fit)) for o, fit in self._taken] if needless else self._again
+        fits = list(self._less_late.items()) if needless else self._again
         least = -INDISTINGUISHABLE if _ways_late(self._final) > 1 else INDISTINGUISHABLE
         told = [(o, fit) for o, fit in fits if needless or o.worth(self._final, fit) > least]
         return [
@@ -97,7 +97,7 @@ class Ages:
 
         The search on these may have ended at a smaller one.
         """
-        return _timely(dict(self._taken)[older])
+        return self._less_late[older]
 
     @property
     def is_undecided(self) -> bool:
@@ -118,8 +118,13 @@ class Ages:
         ]
 
     @cached_property
+    def _less_late(self) -> dict[Older, Fit]:
+        """The same, less what makes a robot late."""
+        return {older: _timely(fit) for older, fit in self._taken}
+
+    @cached_property
     def _again(self) -> list[tuple[Older, Fit]]:
-        """The same, fitted again."""
+        """The structure as it was found, fitted again."""
         return [
             (older, fit_prediction(fit.space, fit.stretches, fit.u, fit.gains))
             for older, fit in self._taken

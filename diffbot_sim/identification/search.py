@@ -142,8 +142,8 @@ def _timed(
     ages = Ages(first, found.recordings)
     unexplained = 0.0 if found.unexplained is None else found.unexplained.worth
     for older in ages.likely if found.says_something else ():
-        seconds = (taken(older).undoubted.final, ages.timely(older))
-        if any(is_taken(older, first, second, unexplained) for second in seconds):
+        shown = partial(is_taken, older, first, unexplained=unexplained)
+        if shown(taken(older).undoubted.final) or shown(ages.timely(older)):
             return taken(older)
     return replace(_unfiltered(found, declared, kinds, progress), undecided=ages.is_undecided)
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from math import isfinite
 
-from diffbot_sim.identification.fitting.coordinates import WIDEST_FACTOR
+from diffbot_sim.identification.fitting.coordinates import FREE_OF_ROBOT, WIDEST_FACTOR
 from diffbot_sim.identification.result import Estimate
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import UNSEEN
@@ -11,6 +11,8 @@ from diffbot_sim.physics.effects import library
 
 # An interval wider than this share of its value, either way, tells little of a parameter.
 WIDE = 0.2
+# What is fitted as a factor of its declared value, and stopped at the widest one.
+BY_FACTOR = (*FREE_OF_ROBOT, 'stribeck')
 DRIVES = {
     'mass': 'hard acceleration and braking, straight ahead',
     'inertia': 'turns that begin and end fast',
@@ -30,7 +32,10 @@ def advice(selection: Selection, found: Mapping[str, Estimate]) -> tuple[str, ..
             f'{kind.name} cannot be seen in this drive; it would take {kind.excitation}.'
             for kind in unseen
         ),
-        *(f'{name} is {_how(name, it)}; {_drive(name)}.' for name, it in vague.items()),
+        *(
+            f'{name} is {_how(name, it)}; it would take {_drive(name)}.'
+            for name, it in vague.items()
+        ),
     )
 
 
@@ -39,7 +44,7 @@ def _is_vague(it: Estimate) -> bool:
 
 
 def _how(name: str, it: Estimate) -> str:
-    if it.at_bound and name in ('mass', 'inertia', 'stribeck'):
+    if it.at_bound and name in BY_FACTOR:
         far = f'{WIDEST_FACTOR:g} times larger or smaller than declared'
         return f'{far}, further no fit goes: declare it nearer, or this drive leaves it open'
     if it.at_bound:
@@ -50,5 +55,4 @@ def _how(name: str, it: Estimate) -> str:
 
 def _drive(name: str) -> str:
     effect, _, _ = name.partition('.')
-    drive = DRIVES[name] if name in DRIVES else library()[effect].excitation
-    return f'it would take {drive}'
+    return DRIVES[name] if name in DRIVES else library()[effect].excitation

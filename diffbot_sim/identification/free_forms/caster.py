@@ -15,7 +15,7 @@ import numpy as np
 from numba import types
 
 from diffbot_sim.identification.fitting.views import View
-from diffbot_sim.physics.compiled import entry
+from diffbot_sim.physics.compiled import compiled, entry
 from diffbot_sim.records import Array
 
 # Where the pivot may be, ahead of the axle, and how far the wheel may trail it: shares of half
@@ -70,6 +70,12 @@ def swivelled(time: Array, v: Array, omega: Array, ahead: float, trail: float) -
     return angle
 
 
+@compiled
+def _rate(angle: float, v: float, omega: float, ahead: float, trail: float) -> float:
+    """Return how fast a caster swivels at an angle [rad/s], its wheel not slipping sideways."""
+    return (ahead * omega * cos(angle) - v * sin(angle)) / trail - omega
+
+
 @entry(
     types.void(_ROW, _ROW, _ROW, types.float64, types.float64, types.Array(types.float64, 1, 'C'))
 )
@@ -81,10 +87,8 @@ def _swivel(time: Array, v: Array, omega: Array, ahead: float, trail: float, ang
         count = ceil(fastest * span / LONGEST) + 1
         step, at = span / count, angle[k]
         for _ in range(count):
-            rate = (ahead * omega[k] * cos(at) - v[k] * sin(at)) / trail - omega[k]
-            middle = at + 0.5 * step * rate
-            rate = (ahead * omega[k] * cos(middle) - v[k] * sin(middle)) / trail - omega[k]
-            at += step * rate
+            middle = at + 0.5 * step * _rate(at, v[k], omega[k], ahead, trail)
+            at += step * _rate(middle, v[k], omega[k], ahead, trail)
         angle[k + 1] = at
 
 

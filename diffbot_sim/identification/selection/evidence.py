@@ -111,11 +111,7 @@ def delta_bic(first: Fit, second: Fit) -> float:
 
 
 def delta_bic_beyond_past(first: Fit, second: Fit) -> float:
-    """Return the same beyond what past errors tell.
-
-    A count that one difference of an encoder lacks, the next one has; and where a controller hears
-    that, a robot that is late seems to foresee it.
-    """
+    """Return the same where errors may be those of counts, as they are or beyond their past."""
     fall = float(_falls_beyond(first, second).sum())
     return fall - _price(first, second, second.whitened.size)
 

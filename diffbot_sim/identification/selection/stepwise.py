@@ -80,7 +80,7 @@ def select(
     fits = [screen.fit for screen in path]
     final, without, support = _prune(fits, len(kinds), held_out, progress)
     entered = {kind.name for kind in fits[-1].space.kinds}
-    told = [_outcome(trial, trial.kind.name in entered, without) for trial in last.values()]
+    told = [_with_outcome(trial, entered, without) for trial in last.values()]
     trials = sorted(told, key=lambda t: (t.kind.name in without, t.evidence.delta_bic))
     alternatives = {
         name: _alternatives(final, name, _screened(rest, path), kinds, progress)
@@ -89,11 +89,11 @@ def select(
     return Selection(base, final, tuple(reversed(trials)), without, support, alternatives)
 
 
-def _outcome(trial: Trial, entered: bool, chosen: Container[str]) -> Trial:
+def _with_outcome(trial: Trial, entered: Container[str], chosen: Container[str]) -> Trial:
     """Return a trial with what came of it after it was accepted."""
     if not trial.accepted or trial.kind.name in chosen:
         return trial
-    return replace(trial, outcome=NEEDLESS if entered else CROWDED)
+    return replace(trial, outcome=NEEDLESS if trial.kind.name in entered else CROWDED)
 
 
 def _prune(

@@ -9,13 +9,7 @@ from scipy import stats
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, complete
-from diffbot_sim.identification.selection.evidence import (
-    Evidence,
-    compare,
-    likelihood_ratio,
-    rise_without,
-    wald,
-)
+from diffbot_sim.identification.selection.evidence import Evidence, compare, rise_without, wald
 from diffbot_sim.identification.selection.feedback import is_of_feedback
 from diffbot_sim.identification.selection.rivals import comes_up
 from diffbot_sim.identification.selection.screening import PROMISING, Score, Screen
@@ -155,7 +149,7 @@ def _completed(
     outcome = judge(evidence, tried)
     if outcome == SUPPORTED and kind.name in fit.incredible:
         outcome = INCREDIBLE
-    elif outcome == SUPPORTED and _is_bereft(fit, kind, likelihood_ratio(screen.fit, fit)):
+    elif outcome == SUPPORTED and _is_bereft(fit, kind, evidence.delta_bic + price):
         outcome = BEREFT
     elif outcome == SUPPORTED and is_of_feedback(fit, kind.name):
         outcome = HEARD
