@@ -32,7 +32,7 @@ STOREYS: list[set[str]] = [
     {'recordings'},
     {'fitting'},
     {'selection'},
-    {'free_forms', 'conclusions', 'suspicion'},
+    {'free_forms', 'conclusions', 'suspicion', 'found'},
     {'doubt', 'following', 'older', 'leading', 'later'},
     {'search'},
     {'identify'},

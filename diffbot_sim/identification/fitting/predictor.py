@@ -120,7 +120,7 @@ def _predict(  # type: ignore[no-untyped-def]
     snapshots,
 ) -> None:
     """Fill out: innovation, corrected twist, disturbance; and a snapshot after each sample."""
-    drive, b = Drive(command_time, force, max_step), params[2]
+    drive = Drive(command_time, force, max_step)
     current = command_at(drive, -1, times[0])
     initial_modes(laws, params, states, z, modes, inputs_of(drive, current, 0.0, 0.0), times[0])
     pushing, turning = 0.0, 0.0
@@ -144,15 +144,14 @@ def _predict(  # type: ignore[no-untyped-def]
             )
             interval = time - times[k - 1]
             v, omega = measured(params, means, z, before, interval)
-            error_v, error_omega = twist[k, 0] - v, twist[k, 1] - omega
-            out[k, 0], out[k, 1] = error_v, error_omega
+            out[k, 0], out[k, 1] = twist[k, 0] - v, twist[k, 1] - omega
             # What a force did all the while is at the end twice what it is on the mean.
-            error_v, error_omega = (1.0 + means[0]) * error_v, (1.0 + means[1]) * error_omega
-            correct(z, modes, b, gains[0] * error_v, gains[3] * error_omega)
-            pushing *= gains[2] ** interval
-            turning *= gains[5] ** interval
-            pushing += gains[1] * params[0] / interval * error_v
-            turning += gains[4] * params[1] / interval * error_omega
+            error_v, error_omega = (1.0 + means[0]) * out[k, 0], (1.0 + means[1]) * out[k, 1]
+            correct(z, modes, params[2], gains[0] * error_v, gains[3] * error_omega)
+            pushing = gains[2] ** interval * pushing + gains[1] * params[0] / interval * error_v
+            turning = (
+                gains[5] ** interval * turning + gains[4] * params[1] / interval * error_omega
+            )
             roll(params, z, way[k, 0], way[k, 1], 1.0 - exp(-interval / ROLLED))
         z[HEADING] = heading[k]
         out[k, 2], out[k, 3] = twist_of(params, z)

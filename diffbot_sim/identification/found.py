@@ -1,0 +1,74 @@
+"""What a search finds in recordings, and what it begins with."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.recordings.lateness import half_interval, timing
+from diffbot_sim.identification.recordings.recordings import Recordings
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.result import Structure, Timing
+from diffbot_sim.identification.selection.stepwise import Selection
+
+
+@dataclass(frozen=True)
+class Begun:
+    """A declared model recalibrated on recordings, and fitted with the noise model."""
+
+    recordings: Recordings
+    held_out: tuple[Stretch, ...]
+    recalibrated: Fit
+    base: Fit
+
+
+@dataclass(frozen=True)
+class Found:
+    """What was found in recordings, as they were taken to be timed.
+
+    undoubted: as it was before names were doubted; near_rest: by how much a friction near rest of
+    another form than declared, which is allowed for, lowers the deviance; time_constant [s]: of
+    the filter of their twists that was undone, 0 if none was; undecided: whether twists may be
+    older than their stamps; lead [s]: by how much forces were taken to act before theirs.
+    """
+
+    recordings: Recordings
+    held_out: tuple[Stretch, ...]
+    recalibrated: Fit
+    undoubted: Selection
+    selection: Selection
+    unexplained: Structure | None
+    near_rest: float = 0.0
+    time_constant: float = 0.0
+    undecided: bool = False
+    lead: float = 0.0
+
+    @property
+    def says_something(self) -> bool:
+        """Whether anything is named or left unexplained."""
+        return bool(self.names) or self.unexplained is not None
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The effects that were found."""
+        return frozenset(self.selection.support)
+
+    def timed_like(self, other: 'Found') -> 'Found':
+        """Return the same, its recordings taken to be timed as those of another search."""
+        return replace(
+            self,
+            time_constant=other.time_constant,
+            undecided=other.undecided,
+            lead=other.lead,
+        )
+
+    def timings(self, given: Recordings) -> tuple[Timing, ...]:
+        """Return how recordings were taken otherwise than they had been given."""
+        leads = (Timing(run.name, self.lead, 'force') for run in given.all if self.lead > 0.0)
+        return (*self._of_twists(given), *leads)
+
+    def _of_twists(self, given: Recordings) -> Iterator[Timing]:
+        if self.time_constant > 0.0:
+            return (Timing(run.name, self.time_constant, 'filter') for run in given.all)
+        if self.undecided:
+            return (Timing(run.name, half_interval(run), 'undecided') for run in given.all)
+        return filter(None, map(timing, given.all, self.recordings.all))
