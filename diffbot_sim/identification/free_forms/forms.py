@@ -1,13 +1,9 @@
-"""Forms in which a variable is looked at, whatever the law.
-
-Each form turns one stretch into columns: how much each function of the variable is there at
-every sample, shape (k, q, 1) for the body or (k, q, 2) for the right and the left wheel.
-"""
+"""Forms in which a variable is looked at, whatever the law."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import ClassVar
+from typing import ClassVar, Protocol
 
 import numpy as np
 
@@ -24,6 +20,26 @@ GROWTH_KNOTS = (2, 3, 6)
 Of = Callable[[View], Array]
 # Sets of rates by which an angle is multiplied, for stretches that were seen.
 Waves = Callable[[Sequence[View]], Sequence[tuple[float, ...]]]
+
+
+class Form(Protocol):
+    """Functions of a variable, on grids that the drive calls for."""
+
+    @property
+    def looked_at(self) -> int:
+        """Among how many grids those were chosen that are returned."""
+
+    def grids(self, views: Sequence[View]) -> list[Array]:
+        """Return what the functions are laid on (knots, edges, rates), each to be tried alone."""
+
+    def columns(self, view: View, grid: Array, /) -> Array:
+        """Return how much of each function is there at every sample of a stretch.
+
+        Shape (k, q, 1) for the body or (k, q, 2) for the right and the left wheel.
+        """
+
+    def curve(self, grid: Array, /) -> tuple[Array, Array]:
+        """Return points of the variable, shape (n,), and all functions there, shape (n, q)."""
 
 
 @dataclass(frozen=True)

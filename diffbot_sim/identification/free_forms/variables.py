@@ -25,6 +25,7 @@ from diffbot_sim.identification.free_forms.forms import (
     GROWTH_KNOTS,
     Constant,
     Fading,
+    Form,
     Growth,
     Near,
     Odd,
@@ -68,19 +69,6 @@ LOOKED_AT = 1000
 # Speeds below which contacts creep or bend, and at which laws of Stribeck friction differ [m/s].
 CREEPING = (0.0, 0.005, 0.02, 0.08)
 NEAR_REST = ((0.0,), CREEPING)
-Form = (
-    Constant
-    | Piecewise
-    | Growth
-    | Spans
-    | TwoSided
-    | Odd
-    | Periodic
-    | Past
-    | Swinging
-    | Warming
-    | Caster
-)
 BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
 
 
