@@ -19,18 +19,3 @@ def test_direction_dependent_friction_sets_two_terminal_speeds(dry, viscous):
         run = push(model, way * 8.0, way * 8.0, 60.0, every=1.0, max_step=0.02)
         coulomb, damping = law.coulomb * (1 + way * dry), law.viscous * (1 + way * viscous)
         assert run.twist[-1, 0] == pytest.approx(way * (8.0 - coulomb) / damping, rel=1e-6)
-
-
-@given(dry=st.floats(-0.4, 0.4), breakaway=st.floats(-0.4, 0.4))
-def test_direction_dependent_friction_sets_two_thresholds_of_breaking_away(dry, breakaway):
-    friction = Friction('generalized')
-    effect = DirectionDependentFriction(dry, 0.0, breakaway)
-    model = Model(friction=friction, effects=(effect,))
-    law = friction.law()
-    for way in (1.0, -1.0):
-        # What breaks away must then also overcome the friction of rolling.
-        rolling = (law.coulomb + law.excess) * (1.0 + way * dry)
-        threshold = max(law.static * (1.0 + way * (dry + breakaway)), rolling)
-        for share, moves in ((0.99, False), (1.01, True)):
-            force = way * share * threshold
-            assert (push(model, force, force, 0.2).twist[-1, 0] != 0.0) == moves
