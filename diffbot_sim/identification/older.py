@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from functools import cached_property, partial
 from typing import NamedTuple
 
-from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
+from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.recordings.lateness import (
     LATE,
@@ -23,11 +23,11 @@ from diffbot_sim.identification.selection.candidates import (
     complete,
     on_recordings,
     reduce,
+    refitted,
 )
 from diffbot_sim.identification.selection.evidence import (
     delta_bic,
     delta_bic_beyond_past,
-    delta_bic_of_both,
     delta_bic_of_speed,
 )
 from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE
@@ -55,7 +55,7 @@ class Older(NamedTuple):
 
 
 OLDER = (
-    Older('twists', TWIST, of_interval_before, delta_bic_of_both),
+    Older('twists', TWIST, of_interval_before, delta_bic_beyond_past),
     # A gyro is never late, and a heading that was made with it says nothing of the speed.
     Older('speeds', SPEED, speed_of_interval_before, delta_bic_of_speed),
 )
@@ -125,10 +125,7 @@ class Ages:
     @cached_property
     def _again(self) -> list[tuple[Older, Fit]]:
         """The structure as it was found, fitted again."""
-        return [
-            (older, fit_prediction(fit.space, fit.stretches, fit.u, fit.gains))
-            for older, fit in self._taken
-        ]
+        return [(older, refitted(fit)) for older, fit in self._taken]
 
 
 def is_taken(older: Older, first: Fit, second: Fit, unexplained: float) -> bool:
@@ -154,8 +151,7 @@ def is_beyond_doubt(
 
 def _late_as_stamped(final: Fit, recordings: Recordings, kinds: Sequence[type[Effect]]) -> Fit:
     """Fit a structure to twists as they are stamped, and a robot that is late besides."""
-    taken = on_recordings(final, recordings)
-    fit = fit_prediction(taken.space, taken.stretches, taken.u, taken.gains)
+    fit = refitted(on_recordings(final, recordings))
     late = [k for k in kinds if k.name in LATE_EFFECTS and k not in fit.space.kinds]
     screen = Screen(fit)
     scores = [(kind, screen.score(kind)) for kind in late]

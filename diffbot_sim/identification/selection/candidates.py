@@ -58,18 +58,22 @@ def on_recordings(fit: Fit, recordings: Recordings) -> Fit:
 
 
 def reduce(fit: Fit, name: str) -> Fit:
-    """Fit the structure that lacks one of the effects.
-
-    From the noise model that errs less without it: one that trusts the model with the effect may
-    never catch up with what the rest cannot follow.
-    """
+    """Fit the structure that lacks one of the effects."""
     kinds = tuple(kind for kind in fit.space.kinds if kind.name != name)
     space = Space(fit.space.declared, kinds)
-    kept = np.delete(fit.u, fit.space.places(name))
+    return refitted(replace(fit, space=space, u=np.delete(fit.u, fit.space.places(name))))
+
+
+def refitted(fit: Fit) -> Fit:
+    """Fit a structure again, which may have changed since, or what it is fitted to.
+
+    From the noise model that errs less now: one that trusts a model with an effect may never catch
+    up with what the rest cannot follow, and one for moments overshoots where it hears means.
+    """
 
     def scale(gains: Array) -> float:
-        errors = whitened(fit.stretches, space.model(kept), gains, UNIT)
+        errors = whitened(fit.stretches, fit.space.model(fit.u), gains, UNIT)
         return float(np.prod(scale_of(errors)))
 
     gains = min((fit.gains, FIRST_GAINS), key=scale)
-    return fit_prediction(space, fit.stretches, kept, gains)
+    return fit_prediction(fit.space, fit.stretches, fit.u, gains)
