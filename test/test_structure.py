@@ -9,6 +9,7 @@ from fits import ROUGH, SMOOTH, acted_otherwise, fitted, left_by
 from peer_drives import DRIVES
 from peer_recording import Recording, record
 from peer_robots import MAKES, exact
+from smoothed import driven_smoothly
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
@@ -22,7 +23,7 @@ from diffbot_sim.identification.free_forms.structure import dependences, find_de
 from diffbot_sim.identification.free_forms.warmth import lately
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.suspicion import SUSPICIOUS
-from diffbot_sim.physics import Model, simulate
+from diffbot_sim.physics import Friction, Model, simulate
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
 from diffbot_sim.physics.effects.direction_dependent_friction import DirectionDependentFriction
 from diffbot_sim.physics.effects.transmission_loss import TransmissionLoss
@@ -66,6 +67,14 @@ def test_wheels_that_yield_like_bristles_leave_nothing_to_be_told() -> None:
     result = identify([run], Model(), kinds=[])
     assert result.verdict == 'nothing_missing'
     assert result.near_rest > SUSPICIOUS
+
+
+def test_tyres_that_begin_to_scrub_smoothly_leave_nothing_beside_yaw_friction() -> None:
+    declared = Model(friction=Friction('coulomb_viscous'))
+    run = driven_smoothly(declared, random_forces(3, 60.0, -9.0, 11.0), 0.2, 3)
+    result = identify([run], declared, kinds=[YawFriction])
+    assert [effect.name for effect in result.effects] == ['yaw_friction']
+    assert result.unexplained is None
 
 
 def test_what_wheels_that_creep_roll_on_is_told() -> None:

@@ -4,7 +4,8 @@ The declared friction holds a wheel at rest until it breaks away, and falls expo
 there. Contacts creep, or bend like springs, and laws of Stribeck friction differ: at a few
 centimetres a second all that is known of friction is an approximation. It is in every force that
 acts against the motion, whatever else that depends on, and none of them is told because of it. Nor
-is what moves a wheel that the declared friction still holds: a share of the force that drives it.
+is what moves a wheel that the declared friction still holds: a share of the force that drives it;
+nor how softly tyres begin to scrub as the robot turns.
 """
 
 from collections.abc import Sequence

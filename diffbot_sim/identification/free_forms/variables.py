@@ -69,6 +69,8 @@ LOOKED_AT = 1000
 # Speeds below which contacts creep or bend, and at which laws of Stribeck friction differ [m/s].
 CREEPING = (0.0, 0.005, 0.02, 0.08)
 NEAR_REST = ((0.0,), CREEPING)
+# The same of yaw rates [rad/s].
+TURNING_SLOWLY = (0.0, 0.02, 0.1, 0.4)
 BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
 
 
@@ -154,6 +156,11 @@ VARIABLES = {
         "each wheel's speed near rest, in proportion to the commanded force",
         Fading(wheel_speeds, share_of_force, sets=(CREEPING,)),
         ('wheels',),
+    ),
+    'turning_near_rest': Variable(
+        'the yaw rate near rest, against turning',
+        Fading(lambda view: np.abs(view.omega), turning, sets=(TURNING_SLOWLY,)),
+        ('omega',),
     ),
     'rolling_one_way': Variable(
         "each wheel's speed (pushing the same way forward and backward)",
@@ -278,5 +285,5 @@ VARIABLES = {
     ),
 }
 # What is allowed for before anything is told, and not told itself; all the others are.
-ALLOWED_FOR = ('near_rest', 'yielding')
+ALLOWED_FOR = ('near_rest', 'yielding', 'turning_near_rest')
 TOLD = tuple(name for name in VARIABLES if name not in ALLOWED_FOR)
