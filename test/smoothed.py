@@ -1,4 +1,4 @@
-"""A robot whose friction sets in smoothly, as in many simulators: the sign of a speed is a tanh."""
+"""A robot whose friction sets in smoothly: many simulators take a tanh for the sign of a speed."""
 
 import numpy as np
 from scipy.integrate import solve_ivp
