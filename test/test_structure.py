@@ -21,6 +21,7 @@ from diffbot_sim.identification.free_forms.dependence import (
 from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.identification.free_forms.structure import dependences, find_dependences
 from diffbot_sim.identification.free_forms.warmth import lately
+from diffbot_sim.identification.free_forms.winding import wound
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.suspicion import SUSPICIOUS
 from diffbot_sim.physics import Friction, Model, simulate
@@ -144,6 +145,15 @@ def test_friction_that_falls_as_a_wheel_warms_is_told_by_how_much_it_rolled_late
     eased = 1.5 * np.sign(speeds) * lately(np.abs(speeds), drive.time, 10.0)
     left, *_ = left_by(acted_otherwise(drive, drive.force + eased))
     assert (left.basis.variable, left.basis.axis) == ('warmth', 'wheels')
+
+
+def test_tyres_that_wind_up_are_told_by_how_far() -> None:
+    drive = random_forces(3, 60.0, -9.0, 11.0)
+    speeds = simulate(Model(), drive, drive.time).twist @ [[1.0, 1.0], [0.2, -0.2]]
+    pulled = -0.4 * wound(drive.time, speeds, 0.1)
+    left, *_ = left_by(acted_otherwise(drive, drive.force + pulled, ROUGH))
+    assert (left.basis.variable, left.basis.axis) == ('winding', 'wheels')
+    assert left.basis.grid[0] == 0.1
 
 
 def test_gear_that_rubs_under_load_is_told_by_how_hard_it_is_driven() -> None:

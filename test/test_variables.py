@@ -19,6 +19,7 @@ from diffbot_sim.identification.free_forms.swinging import swung
 from diffbot_sim.identification.free_forms.turning_back import rolled_since, turned_since
 from diffbot_sim.identification.free_forms.variables import TOLD, VARIABLES
 from diffbot_sim.identification.free_forms.warmth import lately
+from diffbot_sim.identification.free_forms.winding import Winding, wound
 from diffbot_sim.identification.recordings.stretches import whole
 from diffbot_sim.physics import Model
 from diffbot_sim.report.dependence import structure_label
@@ -184,3 +185,13 @@ def test_wheel_forces_push_and_turn_the_body(axis: str, force: float, torque: fl
     wheels = np.array([[[1.0, 2.0]]])
     basis = Basis(axis, 'wheel_speed', np.empty(0), 1.0, 0.2, (wheels,))
     np.testing.assert_allclose(basis.push(0, 0), [[force, torque]])
+
+
+def test_what_has_wound_up_one_way_winds_up_the_other_way_once_the_wheel_turns_back() -> None:
+    time = np.arange(0.0, 20.0, 0.01)
+    speed = np.where(time < 10.0, 0.2, -0.2)
+    parts = wound(time, np.column_stack([speed, 0.0 * speed]), 0.1)
+    since, (forward,) = (x.T for x in Winding().curve(np.array([0.1])))
+    back = np.searchsorted(time, 10.0) + np.rint(since / 0.002).astype(int)
+    np.testing.assert_allclose(parts[back, 0], -forward, atol=0.01)
+    assert not np.any(parts[:, 1])

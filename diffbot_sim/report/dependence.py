@@ -82,6 +82,7 @@ STRUCTURE_LABELS = {
     'force_steps': 'command over its step, as a phase [°]',
     'rest_before': 'rest of a wheel before it starts [ln s]',
     'way_since_reversal': 'way of a wheel since it turned back [m]',
+    'winding': 'way of a wheel since it turned back, wound up before [m]',
     'time_since_reversal': 'time since the command changed its sign [s]',
     'turn_since_reversal': 'turn since ω changed its sign [rad]',
     'caster': 'rolling direction of a caster [°]',

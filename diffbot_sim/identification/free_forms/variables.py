@@ -62,6 +62,7 @@ from diffbot_sim.identification.free_forms.turning_back import (
     turned_since,
 )
 from diffbot_sim.identification.free_forms.warmth import Warming
+from diffbot_sim.identification.free_forms.winding import Winding
 from diffbot_sim.identification.recordings.stretches import Stretch
 
 # Rates that differ by a line width, among which the strongest were chosen; a generous count.
@@ -213,6 +214,11 @@ VARIABLES = {
     'way_since_reversal': Variable(
         'how far each wheel has rolled since it last turned back',
         Spans(rolled_since, rolling, WAYS),
+        ('wheels',),
+    ),
+    'winding': Variable(
+        'how far each wheel has wound up, which takes {rate:.3g} m of rolling',
+        Winding(),
         ('wheels',),
     ),
     'time_since_reversal': Variable(
