@@ -8,7 +8,7 @@ from fits import ROUGH, SMOOTH, acted_otherwise, fitted
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.free_forms.moments import find_moments, pushed
+from diffbot_sim.identification.free_forms.moments import find_moments, find_outstanding, pushed
 from diffbot_sim.records import Run
 
 DRIVE = random_forces(5, 80.0, 2.0, 14.0)
@@ -47,7 +47,19 @@ def test_push_that_swells_and_fades_is_told_with_its_force() -> None:
 
 @pytest.mark.parametrize('around', [SMOOTH, ROUGH])
 def test_nobody_pushes_a_robot_that_is_left_alone(around: Surroundings) -> None:
-    assert find_moments(fit_of(rolling(around))) == []
+    fit = fit_of(rolling(around))
+    assert find_moments(fit) == []
+    assert find_outstanding(fit) == []
+
+
+def test_gusts_that_a_noise_model_follows_stand_out_of_what_it_follows() -> None:
+    gusts = (12.0, 30.0, 50.0)
+    blown = np.maximum(np.sin(np.pi * (DRIVE.time[:, None] - gusts) / 4.0), 0.0)
+    lasting = np.abs(DRIVE.time[:, None] - gusts - 2.0) < 2.0
+    force = DRIVE.force + 5.0 * np.sum(blown * lasting, axis=1, keepdims=True)
+    found = find_outstanding(fit_of(acted_otherwise(DRIVE, force, ROUGH, 5)))
+    assert sorted(moment.time for moment in found) == pytest.approx(np.add(gusts, 2.0), abs=1.0)
+    assert {moment.axis for moment in found} == {0}
 
 
 def test_one_push_must_be_as_sure_as_two() -> None:
