@@ -54,6 +54,15 @@ def test_twist_of_the_time_of_its_pose_is_taken_as_it_is() -> None:
     assert timing(run, timely(run)) is None
 
 
+@pytest.mark.parametrize('seed', [1, 2, 3])
+def test_noise_of_a_pose_makes_no_twist_late(seed: int) -> None:
+    run = driven(Model(), seed)
+    noise = np.random.default_rng(seed).normal(size=run.odometry.pose.shape) * 0.003
+    noisy = replace(run, odometry=replace(run.odometry, pose=run.odometry.pose + noise))
+    assert lag_behind_pose(noisy.odometry) == 0.0
+    assert timely(noisy) is noisy
+
+
 def test_long_mean_gives_way_to_what_the_pose_tells() -> None:
     run = counted(driven(Model()), 10)
     told = timing(run, timely(run))

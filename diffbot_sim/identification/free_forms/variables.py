@@ -122,6 +122,9 @@ VARIABLES = {
         'the product of speed and yaw rate', Piecewise(lambda view: view.v * view.omega), BODY
     ),
     'heading': Variable('the heading', Periodic(lambda view: view.stretch.heading), BODY),
+    'turned': Variable(
+        'how far it has turned in all', Piecewise(lambda view: view.stretch.heading), ('omega',)
+    ),
     'friction_over_heading': Variable(
         'the heading, against the motion',
         Periodic(lambda view: view.stretch.heading, weights=rolling),

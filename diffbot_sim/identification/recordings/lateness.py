@@ -7,10 +7,11 @@ rolling mean or a filter makes it later still. Both look like actuators that are
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 from scipy.optimize import minimize_scalar
+from scipy.stats import wilcoxon
 
 from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.recordings.smoothing import smoothed_over
@@ -31,10 +32,13 @@ BEYOND_HALF = 0.75
 SHORTEST = 10.0
 # A pose that moves otherwise than the twist says, by more than this share, tells nothing.
 ALIKE = 0.3
-# By how much twice the log-likelihood must rise where a lag behind the pose is believed.
-BEYOND_CHANCE = 50.0
+# The chance, by signed ranks, below which one lag behind the pose is believed rather than another.
+CHANCE = 1e-8
 # The share of noise in a pose's changes up to which they tell more than a late twist.
 CLEAR = 0.1
+# Samples to each side over which a path is smoothed, and how far apart ones are that are compared:
+# so far that smoothing gives them no noise in common.
+NEIGHBOURS, APART = 4, 5
 # A speed [m/s, rad/s] that is as good as none.
 TINY = 1e-9
 
@@ -109,11 +113,16 @@ def speed_of_interval_before(run: Run) -> Run:
 
 
 def pose_allows_lag(run: Run, of: Components) -> bool:
-    """Say whether a twist may be late: a pose that was not integrated from it would tell."""
+    """Say whether a twist may be a mean since the sample before: its pose would tell if not."""
     seen = run.odometry
     if all(seen.means):
         return False
-    return seen.pose is None or lag_behind_pose(seen, of) > 0.25 * median_interval(seen.time)
+    if seen.pose is None or seen.time[-1] - seen.time[0] < SHORTEST:
+        return True
+    timely, late = (
+        _errors(seen, path_of(seen.pose), of, lag) for lag in (0.0, half_interval(run))
+    )
+    return not _surely_less(timely, late)
 
 
 def lateness_of(values: Mapping[str, float]) -> float:
@@ -129,33 +138,58 @@ def lag_behind_pose(odometry: Odometry, of: Components = TWIST) -> float:
     if odometry.pose is None or odometry.time[-1] - odometry.time[0] < SHORTEST:
         return 0.0
     step = median_interval(odometry.time) / FINENESS
-    misfit = partial(_misfit, odometry, path_of(odometry.pose), of)
+    errors = partial(_errors, odometry, path_of(odometry.pose), of)
     lags = np.arange(-FINENESS, LONGEST / step) * step
-    best = float(lags[int(np.argmin([misfit(lag).cost for lag in lags]))])
+    best = float(lags[int(np.argmin([_cost(errors(lag)) for lag in lags]))])
     found = minimize_scalar(
-        lambda lag: misfit(lag).cost, bounds=(best - step, best + step), method='bounded'
+        lambda lag: _cost(errors(lag)), bounds=(best - step, best + step), method='bounded'
     )
-    at_best = misfit(found.x)
-    sure = misfit(0.0).cost - at_best.cost > BEYOND_CHANCE
-    return float(found.x) if sure and at_best.share < ALIKE else 0.0
+    left = errors(found.x)
+    share = np.sqrt(
+        np.nanmean(left**2, axis=0) / (np.mean(odometry.twist[:, of] ** 2, axis=0) + TINY**2)
+    )
+    return float(found.x) if share.min() < ALIKE and _surely_less(left, errors(0.0)) else 0.0
 
 
-class _Misfit(NamedTuple):
-    """How twists differ from the changes of a pose: -2 log-likelihood; share of the twists."""
+def _errors(odometry: Odometry, path: Array, of: Components, lag: float) -> Array:
+    """Return how twists differ from the mean change of way and heading about a moment before.
 
-    cost: float
-    share: float
-
-
-def _misfit(odometry: Odometry, path: Array, of: Components, lag: float) -> _Misfit:
-    """Hold the twist against the mean change of way and heading about a moment before."""
+    Shape (n, q), not a number where nothing tells.
+    """
     time, interval = odometry.time, median_interval(odometry.time)
-    inner = (time > time[0] + LONGEST + interval) & (time < time[-1] - 2.0 * interval)
-    at, twist = time[inner] - lag, odometry.twist[inner][:, of]
-    after, before = (
-        np.column_stack([np.interp(at + side, time, column) for column in path[:, of].T])
-        for side in (interval, -interval)
-    )
-    errors = np.mean((twist - (after - before) / (2.0 * interval)) ** 2, axis=0) + TINY**2
-    whole = np.mean(twist**2, axis=0) + TINY**2
-    return _Misfit(len(at) * float(np.log(errors).sum()), float(np.sqrt(errors / whole).min()))
+    edge = (NEIGHBOURS + 1) * interval
+    inner = np.flatnonzero((time > time[0] + LONGEST + edge) & (time < time[-1] - edge))[::APART]
+    told, at = np.column_stack([time, path[:, of]]), time[inner] - lag
+    after, before = (_smoothed(told, at + side, interval) for side in (interval, -interval))
+    moved = after - before
+    return np.asarray(odometry.twist[inner][:, of] - moved[:, 1:] / moved[:, :1])
+
+
+def _cost(errors: Array) -> float:
+    return float(np.log(np.nanmean(errors**2, axis=0) + TINY**2).sum())
+
+
+def _surely_less(errors: Array, others: Array) -> bool:
+    """Say whether errors are smaller than others beyond chance, that of a noisy pose included.
+
+    Moments apart are noisy each in its own way: that some noise is smaller proves no lag.
+    """
+    scale = np.nanmean(errors**2, axis=0) + TINY**2
+    gained = np.sum((others**2 - errors**2) / scale, axis=1)
+    told = gained[np.isfinite(gained) & (gained != 0.0)]
+    return len(told) > 0 and bool(wilcoxon(told, alternative='greater').pvalue < CHANCE)
+
+
+def _smoothed(told: Array, at: Array, interval: float) -> Array:
+    """Return means about moments, shape (n, q), of what is told over time, its first column.
+
+    Weighed by a Gaussian as wide as an interval: it leaves as much of white noise at a sample as
+    between two. Interpolation leaves half of it there, and noisy poses would seem to fit best. Not
+    a number where a hole lies around.
+    """
+    near = np.searchsorted(told[:, 0], at)[:, None] + np.arange(-NEIGHBOURS, NEIGHBOURS)
+    near = np.clip(near, 0, len(told) - 1)
+    weights = np.exp(-0.5 * ((told[near, 0] - at[:, None]) / interval) ** 2)
+    with np.errstate(invalid='ignore'):
+        weights /= weights.sum(axis=1, keepdims=True)
+    return np.asarray(np.einsum('nk,nkq->nq', weights, told[near]))
