@@ -69,6 +69,7 @@ ANGLES = (
 STRUCTURE_LABELS = {
     'constant': 'time [s]',
     'turning': 'turn rate ω [rad/s]',
+    'turned': 'heading [rad]',
     'cornering': 'v·ω [m/s²]',
     'rhythm': 'phase [°]',
     'gain_rhythm': 'phase [°]',
