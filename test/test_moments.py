@@ -8,7 +8,13 @@ from fits import ROUGH, SMOOTH, acted_otherwise, fitted
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.free_forms.moments import find_moments, find_outstanding, pushed
+from diffbot_sim.identification.free_forms.moments import (
+    OUTSTANDING,
+    find_moments,
+    find_outstanding,
+    pushed,
+    standing_out,
+)
 from diffbot_sim.records import Run
 
 DRIVE = random_forces(5, 80.0, 2.0, 14.0)
@@ -57,7 +63,10 @@ def test_gusts_that_a_noise_model_follows_stand_out_of_what_it_follows() -> None
     blown = np.maximum(np.sin(np.pi * (DRIVE.time[:, None] - gusts) / 4.0), 0.0)
     lasting = np.abs(DRIVE.time[:, None] - gusts - 2.0) < 2.0
     force = DRIVE.force + 5.0 * np.sum(blown * lasting, axis=1, keepdims=True)
-    found = find_outstanding(fit_of(acted_otherwise(DRIVE, force, ROUGH, 5)))
+    fit = fit_of(acted_otherwise(DRIVE, force, ROUGH, 5))
+    found, left = find_outstanding(fit), standing_out(fit)
+    assert left is not None
+    assert left.worth > 2.0 * OUTSTANDING**2
     assert sorted(moment.time for moment in found) == pytest.approx(np.add(gusts, 2.0), abs=1.0)
     assert {moment.axis for moment in found} == {0}
 

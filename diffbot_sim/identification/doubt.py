@@ -10,7 +10,7 @@ import numpy as np
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
 from diffbot_sim.identification.free_forms.bases import again
 from diffbot_sim.identification.free_forms.dependence import Dependence, realised, worth_of
-from diffbot_sim.identification.free_forms.moments import pushed
+from diffbot_sim.identification.free_forms.moments import pushed, standing_out
 from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
 from diffbot_sim.identification.free_forms.structure import dependences, describe, find_dependences
@@ -140,7 +140,7 @@ def _left_over(seen: Seen) -> Objection:
         if whole is not None:
             return kind.name, describe(whole, rest)
     refused = suspected(selection, seen.allowed) if selection.support else None
-    name = doubted_beside(refused, selection) if refused else ''
+    name = doubted_beside(refused.worth, selection) if refused else ''
     return name, describe(found[0], final)
 
 
@@ -149,12 +149,13 @@ def _unfound(seen: Seen) -> Objection:
     selection, final = seen.selection, seen.selection.final
     refused = suspected(selection, seen.allowed)
     if refused is None:
-        # Beside a name moments may be its own misses.
-        some = None if final.space.kinds else pushed(final)
-        return '', some or moves_otherwise(final, seen.held_out)
+        # Beside a name moments may be its own misses, unless they stand out.
+        some = (standing_out if final.space.kinds else pushed)(final)
+        name = doubted_beside(some.worth, selection) if some else ''
+        return name, some or moves_otherwise(final, seen.held_out)
     nearest = describe(dependences(Screen(final))[0], final)
     left = replace(nearest, description=f'{refused.words}, or {nearest.description}')
-    return doubted_beside(refused, selection), left
+    return doubted_beside(refused.worth, selection), left
 
 
 def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence | None:

@@ -50,10 +50,13 @@ def suspected(selection: Selection, allowed: float) -> Suspected | None:
     return Suspected(most, worth) if worth >= SUSPICIOUS + SLIGHT * named + allowed else None
 
 
-def doubted_beside(refused: Suspected, selection: Selection) -> str:
-    """Return the weakest name where it is not worth enough beside what was refused, or none."""
+def doubted_beside(unnamed: float, selection: Selection) -> str:
+    """Return the weakest name where it is not worth enough beside what has none, or none.
+
+    unnamed: worth of an effect that was refused, or of pushes.
+    """
     worth, name = weakest(selection)
-    return '' if WORTHIER * worth > refused.worth else name
+    return '' if WORTHIER * worth > unnamed else name
 
 
 def weakest(selection: Selection) -> tuple[float, str]:

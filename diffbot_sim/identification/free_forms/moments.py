@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from math import log
 from typing import NamedTuple
 
 import numpy as np
@@ -35,6 +36,8 @@ FELT = 4.0
 OUTSTANDING, AT_LEAST = 6.0, 2
 # What lasts for so long [s] is one push yet.
 LASTING = 5.0
+# A chance that is as good as none.
+IMPOSSIBLE = 1e-300
 # So many windows at once: each takes two numbers for every sample of a stretch.
 AT_ONCE = 50
 
@@ -67,6 +70,11 @@ def pushed(fit: Fit) -> Structure | None:
     moments = find_moments(fit)
     if len(moments) > 1 or any(moment.p_value <= SURE for moment in moments):
         return _described(fit, moments)
+    return standing_out(fit)
+
+
+def standing_out(fit: Fit) -> Structure | None:
+    """Return the force of pushes that stand out of what a fit usually lacks, if there are some."""
     outstanding = find_outstanding(fit)
     return _described(fit, outstanding) if len(outstanding) >= AT_LEAST else None
 
@@ -172,6 +180,7 @@ def _described(fit: Fit, moments: list[Moment]) -> Structure:
         knots=knots,
         force=force,
         force_error=error,
+        worth=-2.0 * sum(log(max(moment.p_value, IMPOSSIBLE)) for moment in moments),
     )
 
 
