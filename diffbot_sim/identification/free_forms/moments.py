@@ -201,7 +201,8 @@ def over_time(view: View, response: Response, axis: int) -> tuple[Array, Array, 
     knots = np.arange(time[0] + WINDOW, time[-1] - WINDOW, 0.5 * WINDOW)
     parts = np.array_split(knots, 1 + len(knots) // AT_ONCE)
     force, error = np.hstack([_acting(view, response, axis, part) for part in parts])
-    shown = error <= FELT * np.median(error[np.isfinite(error)])
+    felt = error[np.isfinite(error)]
+    shown = error <= (FELT * np.median(felt) if len(felt) else 0.0)
     return knots[shown], force[shown], error[shown]
 
 
