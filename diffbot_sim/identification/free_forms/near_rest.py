@@ -20,9 +20,10 @@ from diffbot_sim.identification.free_forms.dependence import (
     realised,
     worth_of,
 )
-from diffbot_sim.identification.free_forms.variables import ALLOWED_FOR
+from diffbot_sim.identification.free_forms.variables import ALLOWED_FOR, ALLOWED_FOR_TURNING
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.screening import Screen
+from diffbot_sim.physics.effects.yaw_friction import YawFriction
 
 Stretches = tuple[Stretch, ...]
 
@@ -43,7 +44,7 @@ def eased(fit: Fit, held_out: Sequence[Stretch]) -> tuple[Fit, Stretches]:
 
 def _eased_once(fit: Fit, held_out: Stretches) -> tuple[Fit, Stretches] | None:
     screen = Screen(fit)
-    tried = (explained_by(screen, b) for b in bases(fit, fit.stretches, ALLOWED_FOR))
+    tried = (explained_by(screen, b) for b in bases(fit, fit.stretches, _allowed_for(fit)))
     fair = (against_the_model(fit, realised(fit, dependence)) for dependence in tried)
     friction = max(fair, key=lambda dependence: worth_of(dependence, fit))
     if worth_of(friction, fit) <= 0.0:
@@ -54,3 +55,9 @@ def _eased_once(fit: Fit, held_out: Stretches) -> tuple[Fit, Stretches] | None:
 
     u, gains = np.split(np.concatenate([fit.u, fit.gains]) + friction.adaptation, [len(fit.u)])
     return fit_prediction(fit.space, pushed(fit.stretches), u, gains), pushed(held_out)
+
+
+def _allowed_for(fit: Fit) -> tuple[str, ...]:
+    """Return the variables that are allowed for; of turning only where something rubs against it."""
+    rubs = any(effect.name == YawFriction.name for effect in fit.model.effects)
+    return (*ALLOWED_FOR, ALLOWED_FOR_TURNING) if rubs else ALLOWED_FOR

@@ -294,5 +294,7 @@ VARIABLES = {
     ),
 }
 # What is allowed for before anything is told, and not told itself; all the others are.
-ALLOWED_FOR = ('near_rest', 'yielding', 'turning_near_rest')
-TOLD = tuple(name for name in VARIABLES if name not in ALLOWED_FOR)
+ALLOWED_FOR = ('near_rest', 'yielding')
+# The same beside friction against turning, of which it is the part near rest.
+ALLOWED_FOR_TURNING = 'turning_near_rest'
+TOLD = tuple(name for name in VARIABLES if name not in (*ALLOWED_FOR, ALLOWED_FOR_TURNING))
