@@ -58,6 +58,6 @@ def _eased_once(fit: Fit, held_out: Stretches) -> tuple[Fit, Stretches] | None:
 
 
 def _allowed_for(fit: Fit) -> tuple[str, ...]:
-    """Return the variables that are allowed for; of turning only where something rubs against it."""
+    """Return what is allowed for; of turning nothing, unless something rubs against it."""
     rubs = any(effect.name == YawFriction.name for effect in fit.model.effects)
     return (*ALLOWED_FOR, ALLOWED_FOR_TURNING) if rubs else ALLOWED_FOR
