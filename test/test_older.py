@@ -25,7 +25,8 @@ def fit_of(*kinds: type) -> Fit:
 
 def means_are_taken(worth: float, unexplained: float = 0.0) -> bool:
     """Say whether means are taken, beside a late robot that explains more or less than they do."""
-    means = Older('twists', TWIST, of_interval_before, lambda first, second: worth)
+    weighed = [lambda first, second: worth] * 2
+    means = Older('twists', TWIST, of_interval_before, *weighed)
     return is_taken(means, fit_of(ActuatorDelay), fit_of(), unexplained)
 
 

@@ -28,6 +28,7 @@ from diffbot_sim.identification.selection.candidates import (
 from diffbot_sim.identification.selection.evidence import (
     delta_bic,
     delta_bic_beyond_past,
+    delta_bic_of_both,
     delta_bic_of_speed,
 )
 from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE
@@ -45,19 +46,20 @@ class Older(NamedTuple):
     """What of the twists may be older than its stamps.
 
     of: its components; taken: how a run is taken then; worth: how much lower the BIC of a second
-    fit is then than that of a first, for what may be older.
+    fit is then than that of a first, for what gains less of it; together: the same for all of it.
     """
 
     what: str
     of: Components
     taken: Callable[[Run], Run]
     worth: Callable[[Fit, Fit], float]
+    together: Callable[[Fit, Fit], float]
 
 
 OLDER = (
-    Older('twists', TWIST, of_interval_before, delta_bic_beyond_past),
+    Older('twists', TWIST, of_interval_before, delta_bic_of_both, delta_bic_beyond_past),
     # A gyro is never late, and a heading that was made with it says nothing of the speed.
-    Older('speeds', SPEED, speed_of_interval_before, delta_bic_of_speed),
+    Older('speeds', SPEED, speed_of_interval_before, delta_bic_of_speed, delta_bic_of_speed),
 )
 
 
@@ -131,12 +133,15 @@ class Ages:
 def is_taken(older: Older, first: Fit, second: Fit, unexplained: float) -> bool:
     """Say whether twists are older than their stamps, by a second fit that takes them so.
 
-    It must be clearly better than the first; or as good, if its robot is late in fewer ways.
+    It must be clearly better than the first, of speed and of turn rate; or as good in all, if its
+    robot is late in fewer ways.
     unexplained: worth of a force that has no name, beside which worths are known so much worse.
     """
-    worth, simpler = older.worth(first, second), _ways_late(second) < _ways_late(first)
+    simpler = _ways_late(second) < _ways_late(first)
     as_good = -max(INDISTINGUISHABLE, DECIDING_SHARE * unexplained)
-    return worth > INDISTINGUISHABLE or (worth > as_good and simpler)
+    if older.worth(first, second) > INDISTINGUISHABLE:
+        return True
+    return simpler and older.together(first, second) > as_good
 
 
 def is_beyond_doubt(

@@ -118,8 +118,17 @@ def delta_bic_beyond_past(first: Fit, second: Fit) -> float:
 
 def delta_bic_of_speed(first: Fit, second: Fit) -> float:
     """Return that for what is told of the speed; turn rates need not be the same data."""
-    price = _price(first, second, len(second.whitened))
-    return float(_falls_beyond(first, second)[0]) - price
+    return float(_delta_bics(first, second)[0])
+
+
+def delta_bic_of_both(first: Fit, second: Fit) -> float:
+    """Return that for what is told of speed or turn rate, whichever gains less."""
+    return float(_delta_bics(first, second).min())
+
+
+def _delta_bics(first: Fit, second: Fit) -> Array:
+    """Return that for what is told of v, and of ω, shape (2,)."""
+    return _falls_beyond(first, second) - _price(first, second, len(second.whitened))
 
 
 def _falls_beyond(first: Fit, second: Fit) -> Array:
