@@ -148,16 +148,16 @@ def _unfound(seen: Seen) -> Objection:
     """Doubt silence, and the weakest name, where no free form is left."""
     selection, final = seen.selection, seen.selection.final
     refused = suspected(selection, seen.allowed)
-    if refused is None and not final.space.kinds:
+    if refused is not None:
+        nearest = describe(dependences(Screen(final))[0], final)
+        left = replace(nearest, description=f'{refused.words}, or {nearest.description}')
+        return doubted_beside(refused.worth, selection), left
+    if not final.space.kinds:
         return '', pushed(final) or moves_otherwise(final, seen.held_out)
-    if refused is None:
-        # Beside a name that is worth more, what stands out may be its own misses.
-        some = standing_out(final)
-        name = doubted_beside(some.worth, selection) if some else ''
-        return name, some if name else moves_otherwise(final, seen.held_out)
-    nearest = describe(dependences(Screen(final))[0], final)
-    left = replace(nearest, description=f'{refused.words}, or {nearest.description}')
-    return doubted_beside(refused.worth, selection), left
+    # Beside a name that is worth more, what stands out may be its own misses.
+    some = standing_out(final)
+    name = doubted_beside(some.worth, selection) if some else ''
+    return name, some if name else moves_otherwise(final, seen.held_out)
 
 
 def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence | None:

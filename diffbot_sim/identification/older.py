@@ -78,20 +78,21 @@ class Ages:
         """
         interval = min(median_interval(run.odometry.time) for run in self._recordings.learned)
         needless = 0.0 < _lateness(self._final) < interval
-        fits = list(self._less_late.items()) if needless else self._again
+        fits = self._less_late if needless else self._again
         least = -INDISTINGUISHABLE if _ways_late(self._final) > 1 else INDISTINGUISHABLE
-        told = [(o, fit) for o, fit in fits if needless or o.worth(self._final, fit) > least]
-        return [
-            o
-            for o, _ in sorted(told, key=lambda pair: -delta_bic_beyond_past(self._final, pair[1]))
-        ]
+        told = {
+            older: delta_bic_beyond_past(self._final, fit)
+            for older, fit in fits.items()
+            if needless or older.worth(self._final, fit) > least
+        }
+        return sorted(told, key=told.__getitem__, reverse=True)
 
     def beyond_doubt(self, kinds: Sequence[type[Effect]]) -> list[Older]:
         """What is the likeliest to be older, if that explains far more than a late robot does."""
         return [
             older
             for older in self.likely[:1]
-            if is_beyond_doubt(older, dict(self._again)[older], self._recordings, kinds)
+            if is_beyond_doubt(older, self._again[older], self._recordings, kinds)
         ]
 
     def timely(self, older: Older) -> Fit:
@@ -107,27 +108,27 @@ class Ages:
         late = _lateness(self._final)
         return late > 0.0 and any(
             o.worth(self._final, fit) > -INDISTINGUISHABLE and _lateness(fit) < late
-            for o, fit in self._again
+            for o, fit in self._again.items()
         )
 
     @cached_property
-    def _taken(self) -> list[tuple[Older, Fit]]:
+    def _taken(self) -> dict[Older, Fit]:
         """The structure as it was found, on twists that are taken as older, if poses allow it."""
-        return [
-            (older, on_recordings(self._final, self._recordings.each(older.taken)))
+        return {
+            older: on_recordings(self._final, self._recordings.each(older.taken))
             for older in OLDER
             if all(pose_allows_lag(run, older.of) for run in self._recordings.learned)
-        ]
+        }
 
     @cached_property
     def _less_late(self) -> dict[Older, Fit]:
         """The same, less what makes a robot late."""
-        return {older: _timely(fit) for older, fit in self._taken}
+        return {older: _timely(fit) for older, fit in self._taken.items()}
 
     @cached_property
-    def _again(self) -> list[tuple[Older, Fit]]:
+    def _again(self) -> dict[Older, Fit]:
         """The structure as it was found, fitted again."""
-        return [(older, refitted(fit)) for older, fit in self._taken]
+        return {older: refitted(fit) for older, fit in self._taken.items()}
 
 
 def is_taken(older: Older, first: Fit, second: Fit, unexplained: float) -> bool:

@@ -199,8 +199,8 @@ class Odd:
         return np.concatenate([-knots[::-1], knots]), np.vstack([-side[::-1], side])
 
 
-@dataclass(frozen=True)
-class _Given:
+@dataclass(frozen=True, kw_only=True)
+class Given:
     """Knots that are given, whatever was seen.
 
     sets: of knots, each tried on its own.
@@ -215,12 +215,12 @@ class _Given:
 
 
 @dataclass(frozen=True)
-class Near(_Given, Odd):
+class Near(Given, Odd):
     """Alike on both sides of zero, with given knots, beyond the last of which it is constant."""
 
 
 @dataclass(frozen=True)
-class Fading(_Given, Piecewise):
+class Fading(Given, Piecewise):
     """Piecewise linear with given knots, nothing at the last of them and beyond."""
 
     def columns(self, view: View, knots: Array) -> Array:

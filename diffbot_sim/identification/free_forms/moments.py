@@ -92,8 +92,13 @@ def find_moments(fit: Fit) -> list[Moment]:
 
 def find_outstanding(fit: Fit) -> list[Moment]:
     """Return moments at which the force that a fit lacks stands out of what it usually is."""
-    felt = list(zip(views(fit, fit.stretches), responses(fit), strict=True))
+    felt = _felt(fit)
     return _apart((moment for axis in (0, 1) for moment in _outstanding(felt, axis)), LASTING)
+
+
+def _felt(fit: Fit) -> list[tuple[View, Response]]:
+    """Return each stretch as a fit sees it, and how its errors answer to pushes."""
+    return list(zip(views(fit, fit.stretches), responses(fit), strict=True))
 
 
 def _outstanding(felt: Sequence[tuple[View, Response]], axis: int) -> Iterator[Moment]:
@@ -165,7 +170,7 @@ def _is_unsteady(view: View) -> Array:
 
 def _described(fit: Fit, moments: list[Moment]) -> Structure:
     """Tell moments with their forces, and the force over time where the surest one is."""
-    felt = list(zip(views(fit, fit.stretches), responses(fit), strict=True))
+    felt = _felt(fit)
     said = ', '.join(_said(*felt[m.stretch], m, _whose(fit, m)) for m in sorted(moments))
     surest = moments[0]
     view, response = felt[surest.stretch]

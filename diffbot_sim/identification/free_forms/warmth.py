@@ -1,28 +1,24 @@
 """How much a wheel has rolled lately: bearings and grease warm as they roll, and cool at rest."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
 from diffbot_sim.identification.fitting.views import View
+from diffbot_sim.identification.free_forms.forms import Given
 from diffbot_sim.records import Array
 
-# For how long warmth stays [s].
-TIMES = (3.0, 10.0, 30.0)
+# For how long warmth stays [s], each tried alone.
+TIMES = ((3.0,), (10.0,), (30.0,))
 
 
 @dataclass(frozen=True)
-class Warming:
+class Warming(Given):
     """Friction in proportion to the mean speed of a wheel over its past, which fades in a time."""
 
     looked_at: ClassVar[int] = 1
-
-    def grids(self, views: Sequence[View]) -> list[Array]:
-        """Return the times in which warmth fades [s]."""
-        del views
-        return [np.array([fading]) for fading in TIMES]
+    sets: tuple[tuple[float, ...], ...] = TIMES
 
     def columns(self, view: View, fading: Array) -> Array:
         """Evaluate mean speeds along a stretch, with the sense of the motion."""

@@ -4,7 +4,6 @@ It pulls back more and more as the wheel rolls on, up to a limit, and the other 
 turns back: Dahl, A solid friction model, 1968. What a wheel did before its last turn still counts.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import exp
 from typing import ClassVar
@@ -13,26 +12,23 @@ import numpy as np
 from numba import types
 
 from diffbot_sim.identification.fitting.views import View
+from diffbot_sim.identification.free_forms.forms import Given
 from diffbot_sim.physics.compiled import entry
 from diffbot_sim.records import Array
 
-# Ways in which a wheel winds up [m].
-WAYS = (0.03, 0.1, 0.3)
+# Ways in which a wheel winds up [m], each tried alone.
+WAYS = ((0.03,), (0.1,), (0.3,))
 # What is drawn: so many points of so many ways after turning back.
 POINTS, DRAWN = 41, 4.0
 _MATRIX = types.Array(types.float64, 2, 'A')
 
 
 @dataclass(frozen=True)
-class Winding:
+class Winding(Given):
     """How far each wheel has wound up, from -1 to 1 of what it can."""
 
     looked_at: ClassVar[int] = 1
-
-    def grids(self, views: Sequence[View]) -> list[Array]:
-        """Return the ways in which a wheel winds up [m]."""
-        del views
-        return [np.array([way]) for way in WAYS]
+    sets: tuple[tuple[float, ...], ...] = WAYS
 
     def columns(self, view: View, way: Array) -> Array:
         """Evaluate it along a stretch, at whose start nothing is wound up."""

@@ -70,9 +70,10 @@ def _length_of_mean(odometry: Odometry) -> int:
     lag, interval = lag_behind_pose(odometry), median_interval(odometry.time)
     if lag > BEYOND_HALF * interval:
         return round(lag / interval)
-    if odometry.pose is None or odometry.time[-1] - odometry.time[0] < SHORTEST:
+    path = _telling_path(odometry)
+    if path is None:
         return 0
-    turned = np.diff(odometry.pose[:, 2]) / np.diff(odometry.time)
+    turned = np.diff(path[:, 1]) / np.diff(odometry.time)
     return smoothed_over(turned, odometry.twist[1:, 1])
 
 
@@ -117,11 +118,10 @@ def pose_allows_lag(run: Run, of: Components) -> bool:
     seen = run.odometry
     if all(seen.means):
         return False
-    if seen.pose is None or seen.time[-1] - seen.time[0] < SHORTEST:
+    path = _telling_path(seen)
+    if path is None:
         return True
-    timely, late = (
-        _errors(seen, path_of(seen.pose), of, lag) for lag in (0.0, half_interval(run))
-    )
+    timely, late = (_errors(seen, path, of, lag) for lag in (0.0, half_interval(run)))
     return not _surely_less(timely, late)
 
 
@@ -135,10 +135,11 @@ def lag_behind_pose(odometry: Odometry, of: Components = TWIST) -> float:
 
     0 where that is not sure.
     """
-    if odometry.pose is None or odometry.time[-1] - odometry.time[0] < SHORTEST:
+    path = _telling_path(odometry)
+    if path is None:
         return 0.0
     step = median_interval(odometry.time) / FINENESS
-    errors = partial(_errors, odometry, path_of(odometry.pose), of)
+    errors = partial(_errors, odometry, path, of)
     lags = np.arange(-FINENESS, LONGEST / step) * step
     best = float(lags[int(np.argmin([_cost(errors(lag)) for lag in lags]))])
     found = minimize_scalar(
@@ -149,6 +150,13 @@ def lag_behind_pose(odometry: Odometry, of: Components = TWIST) -> float:
         np.nanmean(left**2, axis=0) / (np.mean(odometry.twist[:, of] ** 2, axis=0) + TINY**2)
     )
     return float(found.x) if share.min() < ALIKE and _surely_less(left, errors(0.0)) else 0.0
+
+
+def _telling_path(odometry: Odometry) -> Array | None:
+    """Return way and heading by the pose, shape (k, 2); None without one or in a short run."""
+    if odometry.pose is None or odometry.time[-1] - odometry.time[0] < SHORTEST:
+        return None
+    return path_of(odometry.pose)
 
 
 def _errors(odometry: Odometry, path: Array, of: Components, lag: float) -> Array:
