@@ -70,6 +70,14 @@ def test_robot_that_is_only_miscalibrated_lacks_nothing(around: Surroundings) ->
     assert (result.verdict, result.effects, result.unexplained) == ('nothing_missing', (), None)
 
 
+def test_robot_that_never_turns_lacks_nothing() -> None:
+    both = random_forces(1, 60.0, -9.0, 11.0)
+    straight = Commands(both.time, both.force.mean(axis=1, keepdims=True).repeat(2, axis=1))
+    run = rehearse(Model(), straight, Surroundings(omega_noise=0.0), 1)
+    assert not run.odometry.twist[:, 1].any()
+    assert identify([run], DECLARED).verdict == 'nothing_missing'
+
+
 def test_force_of_a_rough_floor_is_seen_where_nothing_is_missing() -> None:
     force = complete(ROUGH).comparisons[0].disturbance[:, 0]
     assert 0.1 < force.std() < 0.6  # two wheels with 0.3 N each, smoothed by the estimate

@@ -35,3 +35,9 @@ def test_differences_of_counts_that_are_foreseen_from_the_last_one_weigh_no_less
 
 def test_a_worse_fit_explains_nothing() -> None:
     assert fall_of_deviance(WHITE, 1.2 * WHITE) == 0.0
+
+
+def test_errors_of_what_never_moves_explain_nothing() -> None:
+    still = WHITE * [1.0, 0.0]
+    assert fall_of_deviance(still, still) == 0.0
+    assert np.all(falls_beyond_past(still, still) == 0.0)

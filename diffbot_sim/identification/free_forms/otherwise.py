@@ -20,7 +20,7 @@ from diffbot_sim.identification.free_forms.variables import BODY
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
-from diffbot_sim.identification.statistics.robust import huber
+from diffbot_sim.identification.statistics.robust import ROUNDING, huber
 from diffbot_sim.records import Array
 
 # Parts of the held-out data; of the fitted ones, parts as long as these are held against them.
@@ -59,8 +59,9 @@ def excess_of(fit: Fit, held_out: Sequence[Stretch]) -> Array:
 
 
 def _weights(squares: Array, parts: int) -> Array:
-    """Return what errors weigh in the mean of each part, shape (parts, 2)."""
-    return np.array([part.mean(axis=0) for part in np.array_split(squares, parts)])
+    """Return what errors weigh in the mean of each part, but for rounding, shape (parts, 2)."""
+    means = [part.mean(axis=0) for part in np.array_split(squares, parts)]
+    return np.maximum(means, ROUNDING)
 
 
 def force_over_time(fit: Fit, stretch: Stretch, axis: int, words: str) -> Structure:

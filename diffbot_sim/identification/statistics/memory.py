@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from diffbot_sim.identification.statistics.robust import huber, influence
+from diffbot_sim.identification.statistics.robust import ROUNDING, huber, influence
 from diffbot_sim.records import Array
 
 # Edges of the spans in which past errors are averaged, in samples.
@@ -34,7 +34,10 @@ def falls_beyond_past(before: Array, after: Array) -> Array:
 
 
 def unforeseen(errors: Array) -> Array:
-    """Return the mean square of what past errors (n, 2) do not tell of each, shape (2,)."""
+    """Return the mean square of what past errors (n, 2) do not tell of each, shape (2,).
+
+    No less than rounding, which all errors may be.
+    """
     errors = influence(errors)
     total = np.vstack([np.zeros(2), np.cumsum(errors, axis=0)])
     now = np.arange(len(errors))
@@ -44,4 +47,4 @@ def unforeseen(errors: Array) -> Array:
     ]
     told = np.column_stack(past)
     known, *_ = np.linalg.lstsq(told, errors, rcond=1e-8)
-    return np.asarray(np.mean((errors - told @ known) ** 2, axis=0))
+    return np.maximum(np.mean((errors - told @ known) ** 2, axis=0), ROUNDING)

@@ -10,6 +10,8 @@ HUBER = 3.0
 NORMAL = 1.4826
 # What is large among errors, as a quantile; what is none beside that, as a share; a least scale.
 LARGE, NOTHING, LEAST = 0.95, 1e-3, 1e-9
+# Squares of whitened errors that are smaller are rounding: of a robot that never turns, say.
+ROUNDING = 1e-12
 
 
 def huber(errors: Array) -> Array:
