@@ -61,7 +61,7 @@ def excess_of(fit: Fit, held_out: Sequence[Stretch]) -> Array:
 def _weights(squares: Array, parts: int) -> Array:
     """Return what errors weigh in the mean of each part, but for rounding, shape (parts, 2)."""
     means = [part.mean(axis=0) for part in np.array_split(squares, parts)]
-    return np.maximum(means, ROUNDING)
+    return np.asarray(np.maximum(means, ROUNDING))
 
 
 def force_over_time(fit: Fit, stretch: Stretch, axis: int, words: str) -> Structure:

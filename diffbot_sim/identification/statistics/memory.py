@@ -47,4 +47,4 @@ def unforeseen(errors: Array) -> Array:
     ]
     told = np.column_stack(past)
     known, *_ = np.linalg.lstsq(told, errors, rcond=1e-8)
-    return np.maximum(np.mean((errors - told @ known) ** 2, axis=0), ROUNDING)
+    return np.asarray(np.maximum(np.mean((errors - told @ known) ** 2, axis=0), ROUNDING))
