@@ -27,6 +27,7 @@ from diffbot_sim.identification.suspicion import SUSPICIOUS
 from diffbot_sim.physics import Friction, Model, simulate
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
 from diffbot_sim.physics.effects.direction_dependent_friction import DirectionDependentFriction
+from diffbot_sim.physics.effects.effective_track import EffectiveTrack
 from diffbot_sim.physics.effects.transmission_loss import TransmissionLoss
 from diffbot_sim.physics.effects.yaw_friction import YawFriction
 from diffbot_sim.records import Commands, Run
@@ -42,6 +43,13 @@ def test_weak_force_in_proportion_to_something_is_told_as_a_line() -> None:
     left, *_ = left_by(rehearse(uneven, random_forces(3, 60.0, -9.0, 11.0), ROUGH, 3))
     assert (left.basis.variable, left.basis.axis) == ('wheel_force', 'difference')
     assert left.basis.size == 2
+
+
+@pytest.mark.parametrize('around', [SMOOTH, ROUGH], ids=['smooth', 'rough'])
+def test_wheels_that_are_nearer_are_told_by_where_they_turn_back(around: Surroundings) -> None:
+    nearer = Model().with_effect(EffectiveTrack(widening=-0.08))
+    left, *_ = left_by(rehearse(nearer, random_forces(5, 60.0, -9.0, 11.0), around, 5))
+    assert left.basis.variable == 'arcs'
 
 
 def drive_on_wheels_that_creep(carpet: float = 0.0) -> tuple[Run, Model]:

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from diffbot_sim.identification.free_forms.bases import Basis
 from diffbot_sim.identification.free_forms.caster import swivelled
 from diffbot_sim.identification.free_forms.forms import Growth, Spans
 from diffbot_sim.identification.free_forms.past import PAST
+from diffbot_sim.identification.free_forms.quantities import share_of_turning, turning_of_wheels
 from diffbot_sim.identification.free_forms.starting import START, rest_before, started
 from diffbot_sim.identification.free_forms.swinging import swung
 from diffbot_sim.identification.free_forms.turning_back import rolled_since, turned_since
@@ -73,6 +75,14 @@ def test_friction_is_alike_both_ways(view: View, name: str) -> None:
     total = form.columns(view, knots).sum(axis=1)
     speed = {'rolling': view.wheel_speed, 'turning': view.omega[:, None]}[name]
     np.testing.assert_allclose(total, np.sign(speed), atol=1e-12)
+
+
+def test_wheels_of_arcs_are_pushed_the_way_they_turn_where_they_turn_back() -> None:
+    left = np.array([0.2, 0.02, 0.0, -0.02, -0.2])
+    view = SimpleNamespace(wheel_speed=np.column_stack([left + 0.8, left]))
+    np.testing.assert_allclose(share_of_turning(view)[:, 1], [0.5, 0.05, 0.0, 0.05, 0.5])
+    np.testing.assert_array_equal(turning_of_wheels(view), [[1.0, -1.0]] * 5)
+    assert not turning_of_wheels(SimpleNamespace(wheel_speed=np.ones((3, 2)))).any()
 
 
 def test_caster_swings_round_where_the_robot_turns_back() -> None:

@@ -77,6 +77,7 @@ STRUCTURE_LABELS = {
     'friction_over_wheel_angle': 'right wheel angle times the order [°]',
     'wheel_speed': 'speed of a wheel [m/s]',
     'rolling': 'speed of a wheel [m/s]',
+    'arcs': 'speed of a wheel over that of turning alone, either way [-]',
     'rolling_one_way': 'speed of a wheel, either way [m/s]',
     'wheel_force': "a wheel's commanded force [N]",
     'other_force': "the other wheel's commanded force [N]",

@@ -6,6 +6,9 @@ from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.identification.free_forms.forms import Of
 from diffbot_sim.records import Array
 
+# Wheels that turning moves by less hardly turn [m/s].
+HARDLY = 0.01
+
 
 def time(view: View) -> Array:
     """Return the time since the start of the run [s]."""
@@ -35,6 +38,17 @@ def rolls(view: View) -> Array:
 def turning(view: View) -> Array:
     """Return which way the robot turns: 1, -1, or 0."""
     return np.sign(view.omega)
+
+
+def turning_of_wheels(view: View) -> Array:
+    """Return which way turning moves each wheel: 1, -1, or 0 where it hardly does."""
+    speed = _of_turning(view)
+    return np.sign(speed) * (np.abs(speed) > HARDLY)
+
+
+def share_of_turning(view: View) -> Array:
+    """Return how fast each wheel rolls over how fast turning alone would move it."""
+    return wheel_speeds(view) / np.maximum(np.abs(_of_turning(view)), HARDLY)
 
 
 def driving(view: View) -> Array:
@@ -70,3 +84,9 @@ def along_of_wheels(index: int) -> Of:
 def towards(index: int) -> Of:
     """Return how much of x (0) or y (1) lies along the robot."""
     return lambda view: np.asarray((np.cos, np.sin)[index](view.stretch.heading))
+
+
+def _of_turning(view: View) -> Array:
+    """Return at which speed turning moves each wheel [m/s], the right one first."""
+    right = 0.5 * (view.wheel_speed[:, 0] - view.wheel_speed[:, 1])
+    return np.column_stack([right, -right])

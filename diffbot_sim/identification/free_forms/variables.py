@@ -45,10 +45,12 @@ from diffbot_sim.identification.free_forms.quantities import (
     rolling,
     rolls,
     share_of_force,
+    share_of_turning,
     time,
     time_of_wheels,
     towards,
     turning,
+    turning_of_wheels,
     wheel_speeds,
 )
 from diffbot_sim.identification.free_forms.starting import rest_before, started
@@ -72,6 +74,8 @@ CREEPING = (0.0, 0.005, 0.02, 0.08)
 NEAR_REST = ((0.0,), CREEPING)
 # The same of yaw rates [rad/s].
 TURNING_SLOWLY = (0.0, 0.02, 0.1, 0.4)
+# Shares of the speed at which turning moves a wheel, within which one that rolls may turn back.
+TURNING_BACK = ((0.0, 0.05), (0.0, 0.1))
 BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
 
 
@@ -165,6 +169,11 @@ VARIABLES = {
         'the yaw rate near rest, against turning',
         Fading(lambda view: np.abs(view.omega), turning, sets=(TURNING_SLOWLY,)),
         ('omega',),
+    ),
+    'arcs': Variable(
+        'where in arcs each wheel turns back',
+        Fading(share_of_turning, turning_of_wheels, sets=TURNING_BACK),
+        ('wheels',),
     ),
     'rolling_one_way': Variable(
         "each wheel's speed (pushing the same way forward and backward)",
