@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, UNIT, Fit
 from diffbot_sim.identification.older import Older, is_taken
 from diffbot_sim.identification.recordings.lateness import TWIST, of_interval_before
@@ -18,16 +18,20 @@ from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
 from diffbot_sim.records import Array
 
 
-def fit_of(*kinds: type) -> Fit:
-    space = Space(Model(), kinds)
-    return Fit(space, (), space.prior() + 0.5, FIRST_GAINS, UNIT)
+def fit_of(delay: float = 0.0) -> Fit:
+    """Return a fit of twists that come every 20 ms, of a robot with that delay [s]."""
+    late = [(ActuatorDelay, point_of(ActuatorDelay, [delay]))] if delay else []
+    space = Space(Model(), tuple(kind for kind, _ in late))
+    at = np.concatenate([Space(Model(), ()).prior(), *(point for _, point in late)])
+    stretches: Any = (SimpleNamespace(time=np.arange(0.0, 1.0, 0.02)),)
+    return Fit(space, stretches, at, FIRST_GAINS, UNIT)
 
 
-def means_are_taken(worth: float, unexplained: float = 0.0) -> bool:
+def means_are_taken(worth: float, unexplained: float = 0.0, delay: float = 0.03) -> bool:
     """Say whether means are taken, beside a late robot that explains more or less than they do."""
     weighed = [lambda first, second: worth] * 2
     means = Older('twists', TWIST, of_interval_before, *weighed)
-    return is_taken(means, fit_of(ActuatorDelay), fit_of(), unexplained)
+    return is_taken(means, fit_of(delay), fit_of(), unexplained)
 
 
 @pytest.mark.parametrize(('worth', 'taken'), [(30.0, True), (-5.0, True), (-30.0, False)])
@@ -38,6 +42,11 @@ def test_means_are_taken_where_they_explain_as_much_as_a_late_robot(worth, taken
 @pytest.mark.parametrize(('worth', 'taken'), [(-30.0, True), (-60.0, False)])
 def test_beside_a_force_without_a_name_they_may_explain_a_little_less(worth, taken):
     assert means_are_taken(worth, unexplained=800.0) == taken
+
+
+@pytest.mark.parametrize(('delay', 'taken'), [(0.0098, True), (0.013, False)])
+def test_beside_it_a_robot_that_is_as_late_as_means_are_is_no_evidence(delay, taken):
+    assert means_are_taken(-60.0, unexplained=800.0, delay=delay) == taken
 
 
 def leaving(errors: Array) -> Any:

@@ -96,13 +96,14 @@ def _for_simulation(selection: Selection, recalibrated: Fit) -> Fit:
     """Choose the parameters that will be simulated.
 
     One-step prediction gives the sharper estimate when the structure is complete. Where it is
-    not, the fit by simulation error is the one that simulates best, and is taken.
+    not, the fit by simulation error is the one that simulates best, and is taken. Friction near
+    rest that was allowed for is no part of what is simulated.
     """
-    final = selection.final
+    final, plain = selection.final, recalibrated.stretches
     if not final.space.kinds:
         return recalibrated
-    simulated = fit_simulation(final.space, final.stretches, final.u)
-    as_predicted = fit_simulation(final.space, final.stretches, final.u, evaluations=1)
+    simulated = fit_simulation(final.space, plain, final.u)
+    as_predicted = fit_simulation(final.space, plain, final.u, evaluations=1)
     better = simulation_error(simulated) < simulation_error(as_predicted) - SIMULATION_MARGIN
     return simulated if better else final
 

@@ -38,8 +38,9 @@ from diffbot_sim.records import Run
 
 # What lowers the BIC by so much more needs no search of its own to be believed.
 FAR = 100.0
-# Beside a force that has no name, less than this share of its worth decides nothing.
-DECIDING_SHARE = 0.05
+# Beside a force that has no name, less than this share of its worth decides nothing; nor does less
+# than all of it where a robot is late by half an interval, as means are, but for this share.
+DECIDING_SHARE, AS_MEANS = 0.05, 0.1
 
 
 class Older(NamedTuple):
@@ -139,7 +140,8 @@ def is_taken(older: Older, first: Fit, second: Fit, unexplained: float) -> bool:
     unexplained: worth of a force that has no name, beside which worths are known so much worse.
     """
     simpler = _ways_late(second) < _ways_late(first)
-    as_good = -max(INDISTINGUISHABLE, DECIDING_SHARE * unexplained)
+    share = 1.0 if _is_of_means(first, second) else DECIDING_SHARE
+    as_good = -max(INDISTINGUISHABLE, share * unexplained)
     if older.worth(first, second) > INDISTINGUISHABLE:
         return True
     return simpler and older.together(first, second) > as_good
@@ -168,6 +170,12 @@ def _late_as_stamped(final: Fit, recordings: Recordings, kinds: Sequence[type[Ef
 def _ways_late(fit: Fit) -> int:
     values = fit.space.values(fit.u)
     return sum(values.get(name, 0.0) > 0.0 for name in LATE)
+
+
+def _is_of_means(first: Fit, second: Fit) -> bool:
+    """Say whether the first robot is later than the second by half an interval of its twists."""
+    half = 0.5 * min(median_interval(stretch.time) for stretch in first.stretches)
+    return abs(_lateness(first) - _lateness(second) - half) < AS_MEANS * half
 
 
 def _lateness(fit: Fit) -> float:
