@@ -10,10 +10,13 @@ from diffbot_sim.identification.conclusions.empirical import table_of, with_term
 from diffbot_sim.identification.conclusions.horizons import horizons
 from diffbot_sim.identification.conclusions.uncertainty import estimates
 from diffbot_sim.identification.fitting.calibration import simulation_error
+from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
 from diffbot_sim.identification.following import follows_nothing
+from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.recordings.gyro import bias_of, unbiased
 from diffbot_sim.identification.recordings.recordings import Recordings
+from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
     NOTHING_MISSING,
@@ -29,7 +32,7 @@ from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import Progress, Trial
 from diffbot_sim.physics.effects import Effect, laws, library
 from diffbot_sim.physics.model import Model
-from diffbot_sim.records import Run
+from diffbot_sim.records import Array, Run
 
 # Prediction fits are kept for simulation unless a fit by simulation error does this much better:
 # pushes of a rough floor last, so the latter fits some of them, too.
@@ -53,13 +56,14 @@ def identify(
     recordings = given.each(unbiased)
     found = search(recordings, declared, _candidates(declared, kinds), progress)
     selection, held_out = found.selection, found.held_out
-    final = _for_simulation(selection, found.recalibrated)
+    final = _for_simulation(found)
+    known = estimates(final if found.unexplained else selection.final)
     unexplained = found.unexplained or follows_nothing(final, held_out)
     closed = unexplained and with_term(final, unexplained, held_out)
     final = closed or final
     # Whatever gave the parameters, the noise model that the disturbances call for watches them.
     watched = replace(final, gains=selection.final.gains)
-    models, known = (declared, found.recalibrated.model, final.model), estimates(final)
+    models = (declared, found.recalibrated.model, final.model)
     comparisons = compare_models(declared, found.recalibrated.model, watched, held_out)
     errors = errors_of(comparisons, 'validate' if validate else 'held_out')
     if len(given.all) > 1:
@@ -92,20 +96,28 @@ def _candidates(declared: Model, kinds: Sequence[type[Effect]] | None) -> tuple[
     return tuple(kind for kind in chosen if kind.name not in present)
 
 
-def _for_simulation(selection: Selection, recalibrated: Fit) -> Fit:
+def _for_simulation(found: Found) -> Fit:
     """Choose the parameters that will be simulated.
 
     One-step prediction gives the sharper estimate when the structure is complete. Where it is
     not, the fit by simulation error is the one that simulates best, and is taken. Friction near
-    rest that was allowed for is no part of what is simulated.
+    rest that was allowed for is no part of what is simulated: declared friction makes up for it.
     """
-    final, plain = selection.final, recalibrated.stretches
+    final, plain = found.selection.final, found.recalibrated.stretches
     if not final.space.kinds:
-        return recalibrated
-    simulated = fit_simulation(final.space, plain, final.u)
-    as_predicted = fit_simulation(final.space, plain, final.u, evaluations=1)
+        return found.recalibrated
+    if found.unexplained:
+        return _simulating(final.space, plain, final.u) or final
+    nominal = Space(final.model, ())
+    return (found.near_rest and _simulating(nominal, plain, nominal.prior())) or final
+
+
+def _simulating(space: Space, stretches: tuple[Stretch, ...], predicted: Array) -> Fit | None:
+    """Return a fit by simulation error, if that is much less than at a predicted point."""
+    simulated = fit_simulation(space, stretches, predicted)
+    as_predicted = fit_simulation(space, stretches, predicted, evaluations=1)
     better = simulation_error(simulated) < simulation_error(as_predicted) - SIMULATION_MARGIN
-    return simulated if better else final
+    return simulated if better else None
 
 
 def _verdict(selection: Selection, unexplained: Structure | None) -> str:
