@@ -20,7 +20,7 @@ from diffbot_sim.identification.free_forms.variables import BODY
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
-from diffbot_sim.identification.statistics.robust import ROUNDING, huber
+from diffbot_sim.identification.statistics.robust import huber
 from diffbot_sim.records import Array
 
 # Parts of the held-out data; of the fitted ones, parts as long as these are held against them.
@@ -55,13 +55,14 @@ def excess_of(fit: Fit, held_out: Sequence[Stretch]) -> Array:
     there = huber(whitened(held_out, fit.model, fit.gains, fit.sigma))
     here = huber(fit.whitened)
     usual = _weights(here, max(1, len(here) * PARTS // len(there)))
-    return np.asarray(np.median(_weights(there, PARTS), axis=0) / usual.max(axis=0))
+    # Errors of their scale weigh 1: where they are less, none is of something else.
+    most = np.maximum(usual.max(axis=0), 1.0)
+    return np.asarray(np.median(_weights(there, PARTS), axis=0) / most)
 
 
 def _weights(squares: Array, parts: int) -> Array:
-    """Return what errors weigh in the mean of each part, but for rounding, shape (parts, 2)."""
-    means = [part.mean(axis=0) for part in np.array_split(squares, parts)]
-    return np.asarray(np.maximum(means, ROUNDING))
+    """Return what errors weigh in the mean of each part, shape (parts, 2)."""
+    return np.array([part.mean(axis=0) for part in np.array_split(squares, parts)])
 
 
 def force_over_time(fit: Fit, stretch: Stretch, axis: int, words: str) -> Structure:

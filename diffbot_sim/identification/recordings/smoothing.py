@@ -23,13 +23,19 @@ def smoothed_over(moved: Array, told: Array) -> int:
     moved: changes of a pose over time, told: the rate at the end of each, both of shape (k,).
     """
     changes, rates = (np.diff(values, n=ORDER)[:, None] for values in (moved, told))
-    if scale_of(changes) < LONG * scale_of(rates):
+    if _usual(changes) < LONG * _usual(rates):
         return 0
     first, second = (influence(v / scale_of(v)).ravel() for v in (changes, rates))
     shifts = range(-FARTHEST, FARTHEST + 1)
     shared = [abs(_correlation(first, second, shift)) for shift in shifts]
     best = int(np.argmax(shared))
     return max(1, abs(shifts[best])) if shared[best] > SHARED else 0
+
+
+def _usual(differences: Array) -> float:
+    """Return the median size of what is any: noise is there always, kinks of a motion seldom."""
+    size = np.abs(differences)
+    return float(np.median(size[size > 0.0])) if np.any(size) else 0.0
 
 
 def _correlation(first: Array, second: Array, shift: int) -> float:

@@ -17,6 +17,9 @@ DIFFERENCE = 1e-5
 JUMP, ALL_BUT = 30.0, 0.99
 # A scale that changes by less than this share between two rounds has settled.
 SETTLED = 0.002
+# No odometry tells speeds [m/s] and yaw rates [rad/s] more finely, nor are integrators of others
+# closer: what is smaller is no error.
+FINEST = 1e-4
 # Errors (n, 2) at a point (p,).
 Errors = Callable[[Array], Array]
 # Lowest and highest coordinates, each of shape (p,).
@@ -88,13 +91,17 @@ def minimise(
     low, high = bounds
     margin = 1e-9 * np.maximum(1.0, np.abs(start))
     point, known = np.clip(start, low + margin, high - margin), _Remembered(errors, bounds)
-    sigma = scale_of(known.errors(point))
+    sigma = _scale(known.errors(point))
     for _ in range(rounds):
         point, converged = _least_squares(known, point, prior, bounds, sigma, evaluations)
-        last, sigma = sigma, scale_of(known.errors(point))
+        last, sigma = sigma, _scale(known.errors(point))
         if converged and np.all(np.abs(sigma / last - 1.0) < SETTLED):
             break
     return point, sigma
+
+
+def _scale(errors: Array) -> Array:
+    return np.asarray(np.maximum(scale_of(errors), FINEST))
 
 
 class _Remembered:
