@@ -23,7 +23,7 @@ def smoothed_over(moved: Array, told: Array) -> int:
     moved: changes of a pose over time, told: the rate at the end of each, both of shape (k,).
     """
     changes, rates = (np.diff(values, n=ORDER)[:, None] for values in (moved, told))
-    if _usual(changes) < LONG * _usual(rates):
+    if _usual(changes) <= LONG * _usual(rates):
         return 0
     first, second = (influence(v / scale_of(v)).ravel() for v in (changes, rates))
     shifts = range(-FARTHEST, FARTHEST + 1)
