@@ -79,10 +79,11 @@ def test_friction_is_alike_both_ways(view: View, name: str) -> None:
 
 def test_wheels_of_arcs_are_pushed_the_way_they_turn_where_they_turn_back() -> None:
     left = np.array([0.2, 0.02, 0.0, -0.02, -0.2])
-    view = SimpleNamespace(wheel_speed=np.column_stack([left + 0.8, left]))
+    wheels, mix = np.column_stack([left + 0.8, left]), np.array([[1.0, 1.0], [0.2, -0.2]])
+    view = SimpleNamespace(wheel_speed=wheels, omega=np.full(5, 2.0), mix=mix)
     np.testing.assert_allclose(share_of_turning(view)[:, 1], [0.5, 0.05, 0.0, 0.05, 0.5])
     np.testing.assert_array_equal(turning_of_wheels(view), [[1.0, -1.0]] * 5)
-    assert not turning_of_wheels(SimpleNamespace(wheel_speed=np.ones((3, 2)))).any()
+    assert not turning_of_wheels(SimpleNamespace(omega=np.zeros(3), mix=mix)).any()
 
 
 def test_caster_swings_round_where_the_robot_turns_back() -> None:

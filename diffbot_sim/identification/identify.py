@@ -57,10 +57,11 @@ def identify(
     found = search(recordings, declared, _candidates(declared, kinds), progress)
     selection, held_out = found.selection, found.held_out
     final = _for_simulation(found)
-    known = estimates(final if found.unexplained else selection.final)
     unexplained = found.unexplained or follows_nothing(final, held_out)
     closed = unexplained and with_term(final, unexplained, held_out)
     final = closed or final
+    # Beside friction near rest effects were held where the prediction has them.
+    known = estimates(selection.final if found.near_rest else final)
     # Whatever gave the parameters, the noise model that the disturbances call for watches them.
     watched = replace(final, gains=selection.final.gains)
     models = (declared, found.recalibrated.model, final.model)

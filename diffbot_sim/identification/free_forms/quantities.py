@@ -88,5 +88,4 @@ def towards(index: int) -> Of:
 
 def _of_turning(view: View) -> Array:
     """Return at which speed turning moves each wheel [m/s], the right one first."""
-    right = 0.5 * (view.wheel_speed[:, 0] - view.wheel_speed[:, 1])
-    return np.column_stack([right, -right])
+    return np.outer(view.omega, view.mix[1])
