@@ -57,7 +57,7 @@ FUNCTION_TYPES = (
 def compose(kinds: tuple[type[Effect], ...]) -> tuple[Laws, Settle]:
     """Compile the functions for a set of effects, given in order of evaluation."""
     links, key = _links(kinds), _key(kinds)
-    driving = links[Stage.COMMAND] + links[Stage.ACTUATOR]
+    driving = links[Stage.COMMAND] + links[Stage.ACTUATOR] + links[Stage.DRIVETRAIN]
     parts = {
         'drive': driving,
         'rub': links[Stage.WHEEL_FRICTION],

@@ -1,7 +1,8 @@
 """What effects see and change: the values handed along the five stages of one instant.
 
 A kernel is a pure compiled function `kernel(at, value, *state, *parameters) -> value`, where
-`value` is the tuple of its stage. Order: command, actuator, wheel friction, body load, inertia.
+`value` is the tuple of its stage. Order: command, actuator, drivetrain, wheel friction, body load,
+inertia.
 """
 
 from enum import IntEnum
@@ -14,13 +15,18 @@ from diffbot_sim.physics.compiled import compiled
 
 
 class Stage(IntEnum):
-    """Where an effect acts; effects are evaluated in this order."""
+    """Where an effect acts; effects are evaluated in this order.
+
+    What motors are asked for, what they give, and what becomes of that on the way to the wheels:
+    a limit is one of the motor's own force, whatever the gain behind it.
+    """
 
     COMMAND = 0
     ACTUATOR = 1
-    WHEEL_FRICTION = 2
-    BODY_LOAD = 3
-    INERTIA = 4
+    DRIVETRAIN = 2
+    WHEEL_FRICTION = 3
+    BODY_LOAD = 4
+    INERTIA = 5
 
 
 class Motion(NamedTuple):
@@ -44,7 +50,7 @@ class Motion(NamedTuple):
 
 
 class Traction(NamedTuple):
-    """Stages COMMAND and ACTUATOR: the force that drives each wheel [N]."""
+    """Stages COMMAND, ACTUATOR and DRIVETRAIN: the force that drives each wheel [N]."""
 
     right: float
     left: float

@@ -4,6 +4,7 @@ import numpy as np
 from motion import push
 
 from diffbot_sim.physics import Friction, Model
+from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
 from diffbot_sim.physics.effects.voltage_limit import VoltageLimit
 from diffbot_sim.physics.state import State
 
@@ -25,3 +26,8 @@ def test_braking_is_limited_as_at_rest():
 def test_what_is_far_below_the_limit_is_left_alone():
     run = push(LIMITED, 1.0, 1.0, 0.01, every=0.01, start=State(v=0.1))
     np.testing.assert_allclose(run.traction[0], 1.0, rtol=1e-6)
+
+
+def test_limit_is_one_of_the_motors_own_whatever_the_gain_behind_it():
+    run = push(LIMITED.with_effect(ActuatorGain(0.2)), 500.0, 500.0, 0.01, every=0.01)
+    np.testing.assert_allclose(run.traction[0], (12.0, 8.0), rtol=1e-9)

@@ -42,7 +42,7 @@ class ActuatorFade(Effect):
     name = 'actuator_fade'
     meaning = 'force gain falls (+) or grows (-) with time, as a battery empties'
     source = 'discharge of batteries: Shepherd (1965), here its straight and exponential parts'
-    stage = Stage.ACTUATOR
+    stage = Stage.DRIVETRAIN
     kernel = fade
     is_of_time = True
     guesses = ((0.001, 0.0), (-0.001, 0.0), (0.01, 0.02), (-0.01, 0.02))

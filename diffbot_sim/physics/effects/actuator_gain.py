@@ -25,7 +25,7 @@ class ActuatorGain(Effect):
     name = 'actuator_gain'
     meaning = "one wheel's force acts with a larger gain than the other's"
     source = 'motor law, torque = k·i, with a constant k that scatters from motor to motor'
-    stage = Stage.ACTUATOR
+    stage = Stage.DRIVETRAIN
     kernel = unequal
     guesses = ((0.05,), (-0.05,))
     excitation = 'straight drives with strong pushes and brakes, forward and backward'

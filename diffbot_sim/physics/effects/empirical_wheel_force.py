@@ -33,7 +33,7 @@ class EmpiricalWheelForce(Effect):
     name = 'empirical_wheel_force'
     meaning = 'force on each wheel by a table over its speed or force; no law, it only describes'
     source = 'learned from the residual of recorded drives'
-    stage = Stage.ACTUATOR
+    stage = Stage.DRIVETRAIN
     kernel = tabulated
     is_sought = False
     guesses = (('wheels', 'wheel_speed', -1.0, 1.0, *([0.5] * POINTS)),)

@@ -21,7 +21,7 @@ class ForceBias(Effect):
     name = 'force_bias'
     meaning = 'a constant force on one wheel or both'
     source = 'Janot, Gautier, Brunot (2019), EMPS: offset of the current amplifier'
-    stage = Stage.ACTUATOR
+    stage = Stage.DRIVETRAIN
     kernel = bias
     guesses = ((0.3, 0.3), (-0.3, -0.3), (0.3, -0.3), (-0.3, 0.3))
     excitation = 'the same speeds driven forward and backward, and turns either way'

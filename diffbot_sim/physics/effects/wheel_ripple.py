@@ -46,7 +46,7 @@ class WheelRipple(Effect):
     name = 'wheel_ripple'
     meaning = 'force ripple periodic in the wheel angle: cogging, worn gear teeth'
     source = 'cogging torque of permanent-magnet motors (Hanselman), errors of gear meshing'
-    stage = Stage.ACTUATOR
+    stage = Stage.DRIVETRAIN
     kernel = ripple
     guesses = ((1.0, 0.3, 0.0, 0.0, 0.3), (12.0, 0.0, 0.3, 0.3, 0.0))
     shape = ('order',)
