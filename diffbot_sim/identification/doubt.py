@@ -128,10 +128,9 @@ def _outdone_name(seen: Seen) -> Objection | None:
 def _left_over(seen: Seen) -> Objection:
     """Return what is left beside all names, and the name that does not stand up to it."""
     selection, final = seen.selection, seen.selection.final
-    beyond = find_dependences(Screen(final), seen.held_out)
     # What is allowed for excuses no name that is worth less than what is left.
     allowed = min(seen.allowed, weakest(selection)[0])
-    found = [left for left in beyond if worth_of(left, final) > allowed]
+    found = find_dependences(Screen(final), seen.held_out, allowed)
     if not found:
         return _unfound(seen)
     for kind, left in product(final.space.kinds, found):

@@ -1,6 +1,6 @@
 """How much a free-form force that depends on one variable explains of what a fit leaves."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from math import nan
 
@@ -140,6 +140,20 @@ def against_the_model(fit: Fit, dependence: Dependence) -> Dependence:
     before = alone.whitened * (alone.sigma / fit.sigma)
     fall = max(dependence.fall - gained, 0.0)
     return replace(dependence, fall=fall, beyond=fall_of_deviance(before, left))
+
+
+def best_against_the_model(fit: Fit, tried: Iterable[Dependence]) -> Dependence:
+    """Return the worthiest of realised dependences, held against the model alone.
+
+    That takes worth away and adds none: what has less than the best before it is not fitted.
+    """
+    first, *others = sorted(tried, key=lambda dependence: -worth_of(dependence, fit))
+    best = against_the_model(fit, first)
+    for dependence in others:
+        if worth_of(dependence, fit) <= worth_of(best, fit):
+            break
+        best = max(best, against_the_model(fit, dependence), key=lambda d: worth_of(d, fit))
+    return best
 
 
 def acting(fit: Fit, basis: Basis, at: Array, stretches: Sequence[Stretch]) -> Array:

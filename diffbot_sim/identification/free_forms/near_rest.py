@@ -15,7 +15,7 @@ import numpy as np
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
 from diffbot_sim.identification.free_forms.bases import again, bases
 from diffbot_sim.identification.free_forms.dependence import (
-    against_the_model,
+    best_against_the_model,
     explained_by,
     realised,
     worth_of,
@@ -45,8 +45,7 @@ def eased(fit: Fit, held_out: Sequence[Stretch]) -> tuple[Fit, Stretches]:
 def _eased_once(fit: Fit, held_out: Stretches) -> tuple[Fit, Stretches] | None:
     screen = Screen(fit)
     tried = (explained_by(screen, b) for b in bases(fit, fit.stretches, _allowed_for(fit)))
-    fair = (against_the_model(fit, realised(fit, dependence)) for dependence in tried)
-    friction = max(fair, key=lambda dependence: worth_of(dependence, fit))
+    friction = best_against_the_model(fit, (realised(fit, dependence) for dependence in tried))
     if worth_of(friction, fit) <= 0.0:
         return None
 

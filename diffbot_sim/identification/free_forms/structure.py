@@ -56,21 +56,28 @@ def dependences(screen: Screen) -> list[Dependence]:
     return sorted(tried, key=lambda dependence: worth_of(dependence, fit))[::-1]
 
 
-def find_dependences(screen: Screen, held_out: Sequence[Stretch]) -> list[Dependence]:
+def find_dependences(
+    screen: Screen, held_out: Sequence[Stretch], least: float = 0.0
+) -> list[Dependence]:
     """Return dependences that are beyond doubt and explain almost as much as the strongest.
 
-    The one of fewest functions, which says most, comes first.
+    The one of fewest functions, which says most, comes first. least: the worth that is asked for.
     """
-    tried = dependences(screen)
+    fit, tried = screen.fit, dependences(screen)
     # First order promises too little on a rough floor: how many were tried counts after the fit.
     promising = [d for d in tried if not is_chance(d.p_value, 1)]
-    fitted = [realised(screen.fit, d) for d in _best_of_each(promising)[:FOLLOWED]]
-    doubted = (_beyond_doubt(screen.fit, d, held_out, len(tried)) for d in fitted)
-    found = [d for d in doubted if d is not None]
-    worths = [worth_of(dependence, screen.fit) for dependence in found]
-    most = max(worths, default=0.0)
-    near = [d for d, worth in zip(found, worths, strict=True) if worth >= ALMOST * most]
-    return sorted(near, key=lambda dependence: dependence.basis.size)
+    fitted = [realised(fit, d) for d in _best_of_each(promising)[:FOLLOWED]]
+    found = list[Dependence]()
+    for dependence in sorted(fitted, key=lambda d: -worth_of(d, fit)):
+        # What is fair takes worth away: what is behind before that is behind for ever.
+        if worth_of(dependence, fit) <= least:
+            break
+        fair = _beyond_doubt(fit, dependence, held_out, len(tried))
+        if fair is not None and worth_of(fair, fit) > least:
+            found.append(fair)
+            least = max(least, ALMOST * worth_of(fair, fit))
+    near = [d for d in found if worth_of(d, fit) > least]
+    return sorted(near, key=lambda d: (d.basis.size, -worth_of(d, fit)))
 
 
 def _best_of_each(dependences: Sequence[Dependence]) -> list[Dependence]:
