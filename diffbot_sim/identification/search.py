@@ -55,8 +55,10 @@ def _settled(found: Found, question: Question) -> Found:
         return found
     question.progress('allowing for friction near rest')
     doubted = doubt(found.undoubted, found.held_out, with_friction_eased)
-    # What chance could allow for excuses nothing, nor does what leaves something else to be told.
-    excused = doubted.unexplained is None and doubted.near_rest > SUSPICIOUS
+    # What chance could allow for excuses nothing, nor what explains more by itself, nor does what
+    # leaves something else to be told.
+    least = max(SUSPICIOUS, found.unexplained.worth)
+    excused = doubted.unexplained is None and doubted.near_rest > least
     return replace(found, **doubted._asdict()) if excused else found
 
 
