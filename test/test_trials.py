@@ -7,7 +7,13 @@ import numpy as np
 import pytest
 
 from diffbot_sim.identification.selection.evidence import Evidence, informative_blocks
-from diffbot_sim.identification.selection.trials import SUPPORTED, judge
+from diffbot_sim.identification.selection.trials import (
+    NEEDLESS,
+    SUPPORTED,
+    UNCONFIRMED,
+    judge,
+    judge_again,
+)
 from diffbot_sim.identification.statistics.guards import elsewhere
 
 CLEAR = Evidence(60.0, 1e-15, 0.004, 0.05, 0.001, 0.001)
@@ -24,6 +30,15 @@ def test_best_of_many_shapes_must_be_surer() -> None:
 def test_effect_that_does_not_predict_held_out_data_stays_outside() -> None:
     vague = Evidence(60.0, 1e-15, 0.004, 0.05, 0.4, 0.4)
     assert judge(vague, tried=16) == 'does not predict held-out data better'
+
+
+def test_effect_stays_only_while_all_evidence_is_for_it() -> None:
+    assert judge_again(CLEAR, tried=16) == SUPPORTED
+    assert judge_again(replace(CLEAR, p_held_out=0.4, p_folds=0.4), tried=16) == UNCONFIRMED
+
+
+def test_effect_leaves_where_what_lacks_it_explains_as_much() -> None:
+    assert judge_again(replace(CLEAR, delta_bic=8.0), tried=16) == NEEDLESS
 
 
 def test_parts_of_a_run_may_confirm_what_its_end_leaves_open() -> None:

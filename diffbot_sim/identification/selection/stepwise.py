@@ -1,6 +1,6 @@
 """Which effects enter: forward while the evidence is beyond doubt, then backward."""
 
-from collections.abc import Container, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import itemgetter
 
@@ -9,17 +9,18 @@ from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, begun_anew, reduce
 from diffbot_sim.identification.selection.evidence import Evidence, compare
-from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE, comes_up
+from diffbot_sim.identification.selection.rivals import comes_up
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.trials import (
     CROWDED,
     NEEDLESS,
     OUTDONE,
+    SUPPORTED,
     Progress,
     Trial,
+    judge_again,
     try_all,
 )
-from diffbot_sim.identification.statistics.guards import may_be_chance
 from diffbot_sim.physics.effects import Effect
 
 # What explains less than this share of what a found effect does, to first order, is no rival.
@@ -78,9 +79,8 @@ def select(
         progress(f'{best.space.kinds[-1].name} enters')
         path.append(Screen(shaken(begun_anew(best))))
     fits = [screen.fit for screen in path]
-    final, without, support = _prune(fits, len(kinds), held_out, progress)
-    entered = {kind.name for kind in fits[-1].space.kinds}
-    told = [_with_outcome(trial, entered, without) for trial in last.values()]
+    final, without, support, left = _prune(fits, len(kinds), held_out, progress)
+    told = [_with_outcome(trial, without, left) for trial in last.values()]
     trials = sorted(told, key=lambda t: (t.kind.name in without, t.evidence.delta_bic))
     alternatives = {
         name: _alternatives(final, name, _screened(rest, path), kinds, progress)
@@ -89,23 +89,23 @@ def select(
     return Selection(base, final, tuple(reversed(trials)), without, support, alternatives)
 
 
-def _with_outcome(trial: Trial, entered: Container[str], chosen: Container[str]) -> Trial:
-    """Return a trial with what came of it after it was accepted."""
+def _with_outcome(trial: Trial, chosen: Container[str], left: Mapping[str, str]) -> Trial:
+    """Return a trial with what came of it after it was accepted; left: why effects left again."""
     if not trial.accepted or trial.kind.name in chosen:
         return trial
-    return replace(trial, outcome=NEEDLESS if trial.kind.name in entered else CROWDED)
+    return replace(trial, outcome=left.get(trial.kind.name, CROWDED))
 
 
 def _prune(
     path: Sequence[Fit], tried: int, held_out: Sequence[Stretch], progress: Progress
-) -> tuple[Fit, dict[str, Fit], dict[str, Evidence]]:
-    """Take out, one by one, effects that later ones have made needless.
+) -> tuple[Fit, dict[str, Fit], dict[str, Evidence], dict[str, str]]:
+    """Take out, one by one, effects that later ones have made needless, or unsure.
 
     path: the fits of the forward search. Each is asked once more from where the larger one led:
     an effect must not live off a poor end of the fit that lacks it, nor may what lacks it explain
-    the data as well.
+    the data as well. Returns, too, why each left that did.
     """
-    fit = path[-1]
+    fit, left = path[-1], dict[str, str]()
     while True:
         support, smaller = dict[str, Evidence](), dict[str, Fit]()
         for kind in fit.space.kinds:
@@ -114,17 +114,14 @@ def _prune(
             ends = [reduce(fit, kind.name), *(f for f in path if set(f.space.kinds) == rest)]
             smaller[kind.name] = min(ends, key=lambda end: end.deviance(fit.sigma))
             support[kind.name] = compare(smaller[kind.name], fit, held_out)
-        needless = [
-            name
-            for name, evidence in support.items()
-            if may_be_chance(evidence.p_value, evidence.delta_bic - INDISTINGUISHABLE, tried)
-            or name in fit.incredible
-        ]
-        if not needless:
-            return fit, smaller, support
-        worst = min(needless, key=lambda name: support[name].delta_bic)
+        outcomes = {name: judge_again(support[name], tried) for name in support}
+        outcomes |= dict.fromkeys(fit.incredible & outcomes.keys(), NEEDLESS)
+        leaving = [name for name, outcome in outcomes.items() if outcome != SUPPORTED]
+        if not leaving:
+            return fit, smaller, support, left
+        worst = min(leaving, key=lambda name: support[name].delta_bic)
         progress(f'{worst} leaves')
-        fit = smaller[worst]
+        fit, left[worst] = smaller[worst], outcomes[worst]
 
 
 def _screened(fit: Fit, path: Sequence[Screen]) -> Screen:

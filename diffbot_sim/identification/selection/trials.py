@@ -11,7 +11,7 @@ from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, complete
 from diffbot_sim.identification.selection.evidence import Evidence, compare, rise_without, wald
 from diffbot_sim.identification.selection.feedback import is_of_feedback
-from diffbot_sim.identification.selection.rivals import comes_up
+from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE, comes_up
 from diffbot_sim.identification.selection.screening import PROMISING, Score, Screen
 from diffbot_sim.identification.statistics.guards import (
     BLOCK_LEVEL,
@@ -193,3 +193,10 @@ def judge(evidence: Evidence, tried: int) -> str:
     if lasting(evidence.p_block, evidence.p_elsewhere):
         return SUPPORTED
     return PASSING if evidence.p_elsewhere <= ELSEWHERE_LEVEL else UNCONFIRMED
+
+
+def judge_again(evidence: Evidence, tried: int) -> str:
+    """Say the same of an effect among all that entered: what lacks it must not explain as much."""
+    if may_be_chance(evidence.p_value, evidence.delta_bic - INDISTINGUISHABLE, tried):
+        return NEEDLESS
+    return judge(evidence, tried)
