@@ -1,4 +1,4 @@
-"""What effects see and change: the values handed along the five stages of one instant.
+"""What effects see and change: the values handed along the stages of one instant.
 
 A kernel is a pure compiled function `kernel(at, value, *state, *parameters) -> value`, where
 `value` is the tuple of its stage. Order: command, actuator, drivetrain, wheel friction, body load,

@@ -73,7 +73,7 @@ def find_dependences(
         if worth_of(dependence, fit) <= least:
             break
         fair = _beyond_doubt(fit, dependence, held_out, len(tried))
-        if fair is not None and worth_of(fair, fit) > least:
+        if fair is not None:
             found.append(fair)
             least = max(least, ALMOST * worth_of(fair, fit))
     near = [d for d in found if worth_of(d, fit) > least]
