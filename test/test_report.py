@@ -14,7 +14,7 @@ import pytest
 from browser import browsed, needs_chromium
 from rich.console import Console
 
-from diffbot_sim.identification.result import Bias, Estimate, Identification, Timing
+from diffbot_sim.identification.result import Bias, ErrorNorm, Estimate, Identification, Timing
 from diffbot_sim.physics.effects import laws, library
 from diffbot_sim.report import figures, print_summary, sentences, write_report
 from diffbot_sim.report.dependence import binned
@@ -115,6 +115,13 @@ def test_reader_learns_that_wheels_creep_near_rest(told: Callable[[Identificatio
     yielding = replace(by_hand.nothing_missing(), near_rest=90.0)
     assert 'Friction near rest is of another form' in ' '.join(told(yielding).split())
     assert 'Friction near rest' not in told(by_hand.nothing_missing())
+
+
+@pytest.mark.parametrize('told', [page_text, summary])
+def test_reader_learns_which_noise_was_added(told: Callable[[Identification], str]) -> None:
+    exact = replace(by_hand.nothing_missing(), added_noise=ErrorNorm(0.003, 0.014))
+    text = ' '.join(told(exact).split())
+    assert 'white noise of 3.00 mm/s and 14.0 mrad/s was added' in text
 
 
 @pytest.mark.parametrize('told', [page_text, summary])

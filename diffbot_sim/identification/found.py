@@ -9,6 +9,7 @@ from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure, Timing
 from diffbot_sim.identification.selection.stepwise import Selection
+from diffbot_sim.records import Array
 
 
 @dataclass(frozen=True)
@@ -28,7 +29,8 @@ class Found:
     undoubted: as it was before names were doubted; near_rest: by how much a friction near rest of
     another form than declared, which is allowed for, lowers the deviance; time_constant [s]: of
     the filter of their twists that was undone, 0 if none was; undecided: whether twists may be
-    older than their stamps; lead [s]: by how much forces were taken to act before theirs.
+    older than their stamps; lead [s]: by how much forces were taken to act before theirs;
+    added_noise: what was added to twists that had none, in v and ω, shape (2,).
     """
 
     recordings: Recordings
@@ -41,6 +43,12 @@ class Found:
     time_constant: float = 0.0
     undecided: bool = False
     lead: float = 0.0
+    added_noise: Array | None = None
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether all is explained without allowing for anything."""
+        return self.unexplained is None and self.near_rest == 0.0
 
     @property
     def says_something(self) -> bool:

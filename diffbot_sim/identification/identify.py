@@ -22,6 +22,7 @@ from diffbot_sim.identification.result import (
     NOTHING_MISSING,
     UNEXPLAINED,
     Candidate,
+    ErrorNorm,
     Estimate,
     FoundEffect,
     Identification,
@@ -87,6 +88,7 @@ def identify(
         timings=found.timings(recordings),
         biases=tuple(filter(None, map(bias_of, given.all, recordings.all))),
         near_rest=found.near_rest,
+        added_noise=None if found.added_noise is None else ErrorNorm(*found.added_noise.tolist()),
     )
 
 

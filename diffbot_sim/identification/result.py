@@ -203,7 +203,7 @@ class Identification:
     better with it; timings: of runs whose twists were not taken as they were stamped; biases: of
     runs whose turn rates were not taken as they were told; near_rest: by how much a friction
     near rest of another form than declared, which was allowed for, lowers the deviance; 0 where
-    nothing was.
+    nothing was; added_noise: what was added to twists that had none, None where nothing was.
     """
 
     verdict: str
@@ -223,3 +223,4 @@ class Identification:
     timings: tuple[Timing, ...] = ()
     biases: tuple[Bias, ...] = ()
     near_rest: float = 0.0
+    added_noise: ErrorNorm | None = None

@@ -18,6 +18,11 @@ from diffbot_sim.identification.leading import acted_before, lead_of
 from diffbot_sim.identification.older import Ages, Older, is_beyond_doubt, is_taken
 from diffbot_sim.identification.recordings.checks import check
 from diffbot_sim.identification.recordings.lateness import timely
+from diffbot_sim.identification.recordings.noiseless import (
+    is_noiseless,
+    odometry_noise,
+    with_noise,
+)
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.selection.stepwise import select
@@ -42,9 +47,22 @@ def search(
     """Search the structures made of these effects.
 
     Asks, too, whether twists or forces are stamped late, and what begins where runs are held out.
+    What is left of recordings without noise may be the integrator of a simulator: then they are
+    searched again as a good odometry would have told them.
     Raises DataError where the runs are too short or do not move.
     """
     question = Question(declared, kinds, progress)
+    found = _answered(recordings, question)
+    noise = odometry_noise(declared.half_separation)
+    if found.is_complete or not is_noiseless(found.selection.final.sigma, noise):
+        return found
+    progress('adding the noise of a good odometry')
+    noisy = recordings.each(partial(with_noise, noise=noise))
+    return replace(_answered(noisy, question), added_noise=noise)
+
+
+def _answered(recordings: Recordings, question: Question) -> Found:
+    """Search in recordings, and ask all that may be wrong with their stamps and their friction."""
     found = _settled(_timed(recordings, question), question)
     return _begun_later(_led(found, question), question)
 

@@ -43,6 +43,7 @@ def as_dict(result: Identification) -> dict[str, Any]:
         'timings': [asdict(timing) for timing in result.timings],
         'biases': [asdict(bias) for bias in result.biases],
         'near_rest': result.near_rest,
+        'added_noise': result.added_noise and asdict(result.added_noise),
     }
 
 

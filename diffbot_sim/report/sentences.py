@@ -6,6 +6,7 @@ from math import isfinite
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
     NOTHING_MISSING,
+    ErrorNorm,
     Errors,
     FoundEffect,
     Identification,
@@ -47,6 +48,11 @@ BIAS = (
 NEAR_REST = (
     'Friction near rest is of another form than the declared law, as where wheels creep or yield '
     'before they slide. That was allowed for: without it, something would seem unexplained.'
+)
+
+NOISELESS = (
+    'The odometry has no noise, as a simulator tells it, and what is left of it may be how that '
+    'integrates: white noise of {} and {} was added, as a good odometry has.'
 )
 
 
@@ -147,7 +153,14 @@ def of_recordings(result: Identification) -> list[str]:
     """Say what was not taken as it was recorded or declared, and why."""
     biases = [f'{it.run}: {BIAS.format(_rate(it.rate))}' for it in result.biases]
     late = [f'{it.run}: {TIMINGS[it.taken].format(_milliseconds(it))}' for it in result.timings]
-    return [*biases, *late, *([NEAR_REST] if result.near_rest > 0.0 else [])]
+    near_rest = [NEAR_REST] if result.near_rest > 0.0 else []
+    return [*biases, *late, *near_rest, *_noise(result.added_noise)]
+
+
+def _noise(added: ErrorNorm | None) -> list[str]:
+    if added is None:
+        return []
+    return [NOISELESS.format(_speed(added.v_rmse), _rate(added.omega_rmse))]
 
 
 def _milliseconds(it: Timing) -> str:
