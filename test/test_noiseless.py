@@ -29,6 +29,7 @@ def test_slope_of_a_coarse_simulator_is_named_alone() -> None:
     assert slope.parameters['grade_x'].value == pytest.approx(-0.01, rel=0.1)
     assert result.unexplained is None
     assert result.added_noise is not None
+    assert result.timings == ()
 
 
 def test_what_is_explained_to_the_end_is_told_as_it_is() -> None:

@@ -9,7 +9,6 @@ from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure, Timing
 from diffbot_sim.identification.selection.stepwise import Selection
-from diffbot_sim.records import Array
 
 
 @dataclass(frozen=True)
@@ -30,7 +29,7 @@ class Found:
     another form than declared, which is allowed for, lowers the deviance; time_constant [s]: of
     the filter of their twists that was undone, 0 if none was; undecided: whether twists may be
     older than their stamps; lead [s]: by how much forces were taken to act before theirs;
-    added_noise: what was added to twists that had none, in v and ω, shape (2,).
+    noisy: the recordings as they were given, with noise added, if they had none; None if they had.
     """
 
     recordings: Recordings
@@ -43,7 +42,7 @@ class Found:
     time_constant: float = 0.0
     undecided: bool = False
     lead: float = 0.0
-    added_noise: Array | None = None
+    noisy: Recordings | None = None
 
     @property
     def is_complete(self) -> bool:
@@ -70,7 +69,8 @@ class Found:
         )
 
     def timings(self, given: Recordings) -> tuple[Timing, ...]:
-        """Return how recordings were taken otherwise than they had been given."""
+        """Return how recordings were taken otherwise than they had been given, but for noise."""
+        given = self.noisy or given
         leads = (Timing(run.name, self.lead, 'force') for run in given.all if self.lead > 0.0)
         return (*self._of_twists(given), *leads)
 

@@ -15,6 +15,7 @@ from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
 from diffbot_sim.identification.following import follows_nothing
 from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.recordings.gyro import bias_of, unbiased
+from diffbot_sim.identification.recordings.noiseless import odometry_noise
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import (
@@ -56,6 +57,17 @@ def identify(
     given = Recordings(tuple(runs), tuple(validate))
     recordings = given.each(unbiased)
     found = search(recordings, declared, _candidates(declared, kinds), progress)
+    if len(given.all) > 1:
+        progress('holding the runs against each other')
+    return replace(
+        _concluded(found, declared),
+        timings=found.timings(recordings),
+        biases=tuple(filter(None, map(bias_of, given.all, recordings.all))),
+    )
+
+
+def _concluded(found: Found, declared: Model) -> Identification:
+    """Return the answer that follows from what was found."""
     selection, held_out = found.selection, found.held_out
     final = _for_simulation(found)
     unexplained = found.unexplained or follows_nothing(final, held_out)
@@ -67,9 +79,7 @@ def identify(
     watched = replace(final, gains=selection.final.gains)
     models = (declared, found.recalibrated.model, final.model)
     comparisons = compare_models(declared, found.recalibrated.model, watched, held_out)
-    errors = errors_of(comparisons, 'validate' if validate else 'held_out')
-    if len(given.all) > 1:
-        progress('holding the runs against each other')
+    errors = errors_of(comparisons, 'validate' if found.recordings.validate else 'held_out')
     return Identification(
         verdict=_verdict(selection, unexplained),
         effects=_effects(selection, known),
@@ -85,10 +95,8 @@ def identify(
         empirical=table_of(unexplained) if closed and unexplained else None,
         horizons=horizons(models, watched, held_out, errors),
         runs=agreement(selection.final, found.recordings.all),
-        timings=found.timings(recordings),
-        biases=tuple(filter(None, map(bias_of, given.all, recordings.all))),
         near_rest=found.near_rest,
-        added_noise=None if found.added_noise is None else ErrorNorm(*found.added_noise.tolist()),
+        added_noise=_added_noise(declared) if found.noisy else None,
     )
 
 
@@ -121,6 +129,11 @@ def _simulating(space: Space, stretches: tuple[Stretch, ...], predicted: Array) 
     as_predicted = fit_simulation(space, stretches, predicted, evaluations=1)
     better = simulation_error(simulated) < simulation_error(as_predicted) - SIMULATION_MARGIN
     return simulated if better else None
+
+
+def _added_noise(declared: Model) -> ErrorNorm:
+    v, omega = odometry_noise(declared.half_separation)
+    return ErrorNorm(float(v), float(omega))
 
 
 def _verdict(selection: Selection, unexplained: Structure | None) -> str:

@@ -58,7 +58,7 @@ def search(
         return found
     progress('adding the noise of a good odometry')
     noisy = recordings.each(partial(with_noise, noise=noise))
-    return replace(_answered(noisy, question), added_noise=noise)
+    return replace(_answered(noisy, question), noisy=noisy)
 
 
 def _answered(recordings: Recordings, question: Question) -> Found:

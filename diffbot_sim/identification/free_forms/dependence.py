@@ -147,7 +147,7 @@ def best_against_the_model(fit: Fit, tried: Iterable[Dependence]) -> Dependence:
 
     That takes worth away and adds none: what has less than the best before it is not fitted.
     """
-    first, *others = sorted(tried, key=lambda dependence: -worth_of(dependence, fit))
+    first, *others = by_worth(tried, fit)
     best = against_the_model(fit, first)
     for dependence in others:
         if worth_of(dependence, fit) <= worth_of(best, fit):
@@ -169,6 +169,11 @@ def sensitivity(screen: Screen, basis: Basis) -> Array:
         pushes = [basis.push(index, function) for function in range(basis.size)]
         errors.append(response.errors(np.stack(pushes, axis=-1)))
     return screen.fit.counted(errors)
+
+
+def by_worth(dependences: Iterable[Dependence], fit: Fit) -> list[Dependence]:
+    """Return dependences, the worthiest first."""
+    return sorted(dependences, key=lambda dependence: -worth_of(dependence, fit))
 
 
 def worth_of(dependence: Dependence, fit: Fit) -> float:

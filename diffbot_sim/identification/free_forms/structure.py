@@ -12,6 +12,7 @@ from diffbot_sim.identification.free_forms.dependence import (
     Dependence,
     acting,
     against_the_model,
+    by_worth,
     explained_by,
     realised,
     worth_of,
@@ -52,8 +53,7 @@ FORCES = {
 def dependences(screen: Screen) -> list[Dependence]:
     """Try every basis on the residual of a fit, the strongest first."""
     fit = screen.fit
-    tried = [explained_by(screen, basis) for basis in bases(fit, fit.stretches)]
-    return sorted(tried, key=lambda dependence: worth_of(dependence, fit))[::-1]
+    return by_worth((explained_by(screen, basis) for basis in bases(fit, fit.stretches)), fit)
 
 
 def find_dependences(
@@ -68,7 +68,7 @@ def find_dependences(
     promising = [d for d in tried if not is_chance(d.p_value, 1)]
     fitted = [realised(fit, d) for d in _best_of_each(promising)[:FOLLOWED]]
     found = list[Dependence]()
-    for dependence in sorted(fitted, key=lambda d: -worth_of(d, fit)):
+    for dependence in by_worth(fitted, fit):
         # What is fair takes worth away: what is behind before that is behind for ever.
         if worth_of(dependence, fit) <= least:
             break
@@ -77,7 +77,7 @@ def find_dependences(
             found.append(fair)
             least = max(least, ALMOST * worth_of(fair, fit))
     near = [d for d in found if worth_of(d, fit) > least]
-    return sorted(near, key=lambda d: (d.basis.size, -worth_of(d, fit)))
+    return sorted(by_worth(near, fit), key=lambda d: d.basis.size)
 
 
 def _best_of_each(dependences: Sequence[Dependence]) -> list[Dependence]:

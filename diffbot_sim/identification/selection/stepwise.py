@@ -3,6 +3,7 @@
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import itemgetter
+from typing import NamedTuple
 
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.shaking import shaken
@@ -96,14 +97,23 @@ def _with_outcome(trial: Trial, chosen: Container[str], left: Mapping[str, str])
     return replace(trial, outcome=left.get(trial.kind.name, CROWDED))
 
 
+class _Pruned(NamedTuple):
+    """What the backward search kept, as in Selection, and why each effect left that did."""
+
+    final: Fit
+    without: dict[str, Fit]
+    support: dict[str, Evidence]
+    left: dict[str, str]
+
+
 def _prune(
     path: Sequence[Fit], tried: int, held_out: Sequence[Stretch], progress: Progress
-) -> tuple[Fit, dict[str, Fit], dict[str, Evidence], dict[str, str]]:
+) -> _Pruned:
     """Take out, one by one, effects that later ones have made needless, or unsure.
 
     path: the fits of the forward search. Each is asked once more from where the larger one led:
     an effect must not live off a poor end of the fit that lacks it, nor may what lacks it explain
-    the data as well. Returns, too, why each left that did.
+    the data as well.
     """
     fit, left = path[-1], dict[str, str]()
     while True:
@@ -118,7 +128,7 @@ def _prune(
         outcomes |= dict.fromkeys(fit.incredible & outcomes.keys(), NEEDLESS)
         leaving = [name for name, outcome in outcomes.items() if outcome != SUPPORTED]
         if not leaving:
-            return fit, smaller, support, left
+            return _Pruned(fit, smaller, support, left)
         worst = min(leaving, key=lambda name: support[name].delta_bic)
         progress(f'{worst} leaves')
         fit, left[worst] = smaller[worst], outcomes[worst]
