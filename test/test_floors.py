@@ -34,6 +34,7 @@ STOREYS: list[set[str]] = [
     {'selection'},
     {'free_forms', 'conclusions', 'suspicion', 'found'},
     {'doubt', 'following', 'older', 'leading', 'later'},
+    {'simulating'},
     {'search'},
     {'identify'},
 ]

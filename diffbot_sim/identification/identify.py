@@ -9,15 +9,11 @@ from diffbot_sim.identification.conclusions.comparison import compare_models, er
 from diffbot_sim.identification.conclusions.empirical import table_of, with_term
 from diffbot_sim.identification.conclusions.horizons import horizons
 from diffbot_sim.identification.conclusions.uncertainty import estimates
-from diffbot_sim.identification.fitting.calibration import simulation_error
-from diffbot_sim.identification.fitting.coordinates import Space
-from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
 from diffbot_sim.identification.following import follows_nothing
 from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.recordings.gyro import bias_of, unbiased
 from diffbot_sim.identification.recordings.noiseless import odometry_noise
 from diffbot_sim.identification.recordings.recordings import Recordings
-from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
     NOTHING_MISSING,
@@ -32,13 +28,10 @@ from diffbot_sim.identification.result import (
 from diffbot_sim.identification.search import search
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import Progress, Trial
+from diffbot_sim.identification.simulating import for_simulation
 from diffbot_sim.physics.effects import Effect, laws, library
 from diffbot_sim.physics.model import Model
-from diffbot_sim.records import Array, Run
-
-# Prediction fits are kept for simulation unless a fit by simulation error does this much better:
-# pushes of a rough floor last, so the latter fits some of them, too.
-SIMULATION_MARGIN = 0.5
+from diffbot_sim.records import Run
 
 
 def identify(
@@ -69,7 +62,7 @@ def identify(
 def _concluded(found: Found, declared: Model) -> Identification:
     """Return the answer that follows from what was found."""
     selection, held_out = found.selection, found.held_out
-    final = _for_simulation(found)
+    final = for_simulation(found)
     unexplained = found.unexplained or follows_nothing(final, held_out)
     closed = unexplained and with_term(final, unexplained, held_out)
     final = closed or final
@@ -105,30 +98,6 @@ def _candidates(declared: Model, kinds: Sequence[type[Effect]] | None) -> tuple[
     present = {effect.name for effect in declared.effects}
     chosen = laws().values() if kinds is None else kinds
     return tuple(kind for kind in chosen if kind.name not in present)
-
-
-def _for_simulation(found: Found) -> Fit:
-    """Choose the parameters that will be simulated.
-
-    One-step prediction gives the sharper estimate when the structure is complete. Where it is
-    not, the fit by simulation error is the one that simulates best, and is taken. Friction near
-    rest that was allowed for is no part of what is simulated: declared friction makes up for it.
-    """
-    final, plain = found.selection.final, found.recalibrated.stretches
-    if not final.space.kinds:
-        return found.recalibrated
-    if found.unexplained:
-        return _simulating(final.space, plain, final.u) or final
-    nominal = Space(final.model, ())
-    return (found.near_rest and _simulating(nominal, plain, nominal.prior())) or final
-
-
-def _simulating(space: Space, stretches: tuple[Stretch, ...], predicted: Array) -> Fit | None:
-    """Return a fit by simulation error, if that is much less than at a predicted point."""
-    simulated = fit_simulation(space, stretches, predicted)
-    as_predicted = fit_simulation(space, stretches, predicted, evaluations=1)
-    better = simulation_error(simulated) < simulation_error(as_predicted) - SIMULATION_MARGIN
-    return simulated if better else None
 
 
 def _added_noise(declared: Model) -> ErrorNorm:

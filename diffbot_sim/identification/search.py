@@ -27,6 +27,7 @@ from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.selection.stepwise import select
 from diffbot_sim.identification.selection.trials import Progress
+from diffbot_sim.identification.simulating import without_worsening
 from diffbot_sim.identification.suspicion import SUSPICIOUS
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.model import Model
@@ -64,7 +65,7 @@ def search(
 def _answered(recordings: Recordings, question: Question) -> Found:
     """Search in recordings, and ask all that may be wrong with their stamps and their friction."""
     found = _settled(_timed(recordings, question), question)
-    return _begun_later(_led(found, question), question)
+    return without_worsening(_begun_later(_led(found, question), question))
 
 
 def _settled(found: Found, question: Question) -> Found:

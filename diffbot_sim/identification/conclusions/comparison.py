@@ -11,15 +11,24 @@ from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Comparison, ErrorNorm, Errors
 from diffbot_sim.identification.statistics.norms import noise_floor, norm
 from diffbot_sim.physics.model import Model
-from diffbot_sim.records import Trajectory
+from diffbot_sim.records import Array, Trajectory
 
 MAX_STEP = 0.005
+# An error [m/s, rad/s] as good as none, as of the yaw rate of what cannot turn.
+NOTHING = 1e-9
 
 
 def run_free(model: Model, stretch: Stretch) -> Trajectory:
     """Simulate a stretch from its first state with the recorded forces alone."""
     start = start_of(model, stretch, MAX_STEP)
     return simulated(model, stretch, stretch.time, start, MAX_STEP)
+
+
+def free_running_error(model: Model, held_out: Sequence[Stretch]) -> Array:
+    """Return the error of v [m/s] and ω [rad/s] on held-out stretches, pooled, shape (2,)."""
+    misses = [stretch.twist - run_free(model, stretch).twist for stretch in held_out]
+    error = norm(np.concatenate(misses))
+    return np.maximum([error.v_rmse, error.omega_rmse], NOTHING)
 
 
 def compare_models(

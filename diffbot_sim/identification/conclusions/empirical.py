@@ -5,11 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from diffbot_sim.identification.conclusions.comparison import run_free
+from diffbot_sim.identification.conclusions.comparison import free_running_error
 from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
-from diffbot_sim.identification.statistics.norms import norm
 from diffbot_sim.physics.effects import empirical_force, empirical_wheel_force
 from diffbot_sim.physics.effects.empirical_force import POINTS, EmpiricalForce
 from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForce
@@ -19,8 +18,6 @@ from diffbot_sim.physics.model import Model
 TABLE_OF = {'constant': 'time', 'rolling': 'wheel_speed', 'turning': 'omega'}
 # The term is kept when it lowers the held-out error, v and ω together, by this share.
 WORTHWHILE = 0.02
-# An error [m/s, rad/s] as good as none, as of the yaw rate of what cannot turn.
-NOTHING = 1e-9
 
 
 def with_term(fit: Fit, structure: Structure, held_out: Sequence[Stretch]) -> Fit | None:
@@ -53,6 +50,4 @@ def table_of(structure: Structure) -> EmpiricalForce | EmpiricalWheelForce | Non
 
 def _error(model: Model, held_out: Sequence[Stretch]) -> float:
     """Return the mean logarithm of the held-out errors of v and ω."""
-    misses = [stretch.twist - run_free(model, stretch).twist for stretch in held_out]
-    both = norm(np.concatenate(misses))
-    return float(np.log(np.maximum([both.v_rmse, both.omega_rmse], NOTHING)).mean())
+    return float(np.log(free_running_error(model, held_out)).mean())

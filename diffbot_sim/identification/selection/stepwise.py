@@ -15,7 +15,6 @@ from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.trials import (
     CROWDED,
     NEEDLESS,
-    OUTDONE,
     SUPPORTED,
     Progress,
     Trial,
@@ -45,7 +44,7 @@ class Selection:
     support: dict[str, Evidence]
     alternatives: dict[str, tuple[str, ...]]
 
-    def withdrawn(self, name: str, held_out: Sequence[Stretch]) -> 'Selection':
+    def withdrawn(self, name: str, held_out: Sequence[Stretch], why: str) -> 'Selection':
         """Return the selection without one of the effects chosen, the others weighed anew."""
         kept, final = [key for key in self.support if key != name], self.without[name]
         without = {key: reduce(final, key) for key in kept}
@@ -54,7 +53,7 @@ class Selection:
             final=final,
             without=without,
             trials=tuple(
-                replace(trial, outcome=OUTDONE) if trial.kind.name == name else trial
+                replace(trial, outcome=why) if trial.kind.name == name else trial
                 for trial in self.trials
             ),
             support={key: compare(rest, final, held_out) for key, rest in without.items()},

@@ -1,0 +1,73 @@
+"""What is found is there to be simulated: which fit simulates best, and which names spoil it."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from diffbot_sim.identification.conclusions.comparison import free_running_error
+from diffbot_sim.identification.doubt import doubt
+from diffbot_sim.identification.fitting.calibration import simulation_error
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
+from diffbot_sim.identification.found import Found
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.selection.trials import WORSENING
+from diffbot_sim.records import Array
+
+# Prediction fits are kept for simulation unless a fit by simulation error does this much better:
+# pushes of a rough floor last, so the latter fits some of them, too.
+SIMULATION_MARGIN = 0.5
+# A name that raises the held-out error of v or of ω to more than this share of what it is without
+# it simulates worse. No true name did beside anything unexplained, by more than 1.04.
+WORSE = 1.1
+
+
+def for_simulation(found: Found) -> Fit:
+    """Choose the parameters that will be simulated.
+
+    One-step prediction gives the sharper estimate when the structure is complete. Where it is
+    not, the fit by simulation error is the one that simulates best, and is taken. Friction near
+    rest that was allowed for is no part of what is simulated: declared friction makes up for it.
+    """
+    final, plain = found.selection.final, found.recalibrated.stretches
+    if not final.space.kinds:
+        return found.recalibrated
+    if found.unexplained:
+        return _simulating(final.space, plain, final.u) or final
+    nominal = Space(final.model, ())
+    return (found.near_rest and _simulating(nominal, plain, nominal.prior())) or final
+
+
+def _simulating(space: Space, stretches: tuple[Stretch, ...], predicted: Array) -> Fit | None:
+    """Return a fit by simulation error, if that is much less than at a predicted point."""
+    simulated = fit_simulation(space, stretches, predicted)
+    as_predicted = fit_simulation(space, stretches, predicted, evaluations=1)
+    better = simulation_error(simulated) < simulation_error(as_predicted) - SIMULATION_MARGIN
+    return simulated if better else None
+
+
+def without_worsening(found: Found) -> Found:
+    """Withdraw names that, beside what is unexplained, make the simulation worse.
+
+    What acts may look like an effect where it was fitted, and like its contrary elsewhere.
+    """
+    if found.unexplained is None:
+        return found
+    final = _held_out_error(found, found.selection.final)
+    ratios = {
+        name: float(np.max(final / _held_out_error(found, rest)))
+        for name, rest in found.selection.without.items()
+    }
+    worst = max(ratios, key=ratios.__getitem__, default='')
+    if not worst or ratios[worst] <= WORSE:
+        return found
+    rest = found.selection.withdrawn(worst, found.held_out, WORSENING)
+    doubted = doubt(rest, found.held_out)
+    unexplained = doubted.unexplained or found.unexplained
+    return without_worsening(replace(found, selection=doubted.selection, unexplained=unexplained))
+
+
+def _held_out_error(found: Found, fit: Fit) -> Array:
+    """Return the free-running error of v [m/s] and ω [rad/s] of a structure, shape (2,)."""
+    simulated = _simulating(fit.space, found.recalibrated.stretches, fit.u) or fit
+    return free_running_error(simulated.model, found.held_out)
