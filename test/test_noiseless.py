@@ -11,6 +11,7 @@ from diffbot_sim.identification.recordings.noiseless import (
     odometry_noise,
     with_noise,
 )
+from diffbot_sim.identification.result import ErrorNorm
 from diffbot_sim.physics import Friction, Model, Robot
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
 from diffbot_sim.physics.effects.slope import Slope
@@ -58,5 +59,5 @@ def test_same_recording_gets_the_same_noise_and_another_one_other() -> None:
 
 def test_encoders_are_not_without_noise() -> None:
     noise = odometry_noise(0.2)
-    assert is_noiseless(np.array([1e-4, 1e-4]), noise)
-    assert not is_noiseless(np.array([1e-3, 1e-4]), noise)
+    assert is_noiseless(ErrorNorm(1e-4, 1e-4), noise)
+    assert not is_noiseless(ErrorNorm(1e-3, 1e-4), noise)

@@ -45,11 +45,6 @@ class Found:
     noisy: Recordings | None = None
 
     @property
-    def is_complete(self) -> bool:
-        """Whether all is explained without allowing for anything."""
-        return self.unexplained is None and self.near_rest == 0.0
-
-    @property
     def says_something(self) -> bool:
         """Whether anything is named or left unexplained."""
         return bool(self.names) or self.unexplained is not None

@@ -19,7 +19,6 @@ from diffbot_sim.identification.older import Ages, Older, is_beyond_doubt, is_ta
 from diffbot_sim.identification.recordings.checks import check
 from diffbot_sim.identification.recordings.lateness import timely
 from diffbot_sim.identification.recordings.noiseless import (
-    is_noiseless,
     odometry_noise,
     with_noise,
 )
@@ -27,7 +26,7 @@ from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.selection.stepwise import select
 from diffbot_sim.identification.selection.trials import Progress
-from diffbot_sim.identification.simulating import without_worsening
+from diffbot_sim.identification.simulating import is_integrators, without_worsening
 from diffbot_sim.identification.suspicion import SUSPICIOUS
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.model import Model
@@ -48,14 +47,14 @@ def search(
     """Search the structures made of these effects.
 
     Asks, too, whether twists or forces are stamped late, and what begins where runs are held out.
-    What is left of recordings without noise may be the integrator of a simulator: then they are
-    searched again as a good odometry would have told them.
+    What is left of recordings without noise may be the integrator of a simulator, and hide what
+    is missing: then they are searched again as a good odometry would have told them.
     Raises DataError where the runs are too short or do not move.
     """
     question = Question(declared, kinds, progress)
     found = _answered(recordings, question)
     noise = odometry_noise(declared.half_separation)
-    if found.is_complete or not is_noiseless(found.selection.final.sigma, noise):
+    if not is_integrators(found, noise):
         return found
     progress('adding the noise of a good odometry')
     noisy = recordings.each(partial(with_noise, noise=noise))

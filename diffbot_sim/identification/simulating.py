@@ -4,14 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from diffbot_sim.identification.conclusions.comparison import free_running_error
+from diffbot_sim.identification.conclusions.comparison import free_running_error, run_free
 from diffbot_sim.identification.doubt import doubt
 from diffbot_sim.identification.fitting.calibration import simulation_error
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
 from diffbot_sim.identification.found import Found
+from diffbot_sim.identification.recordings.noiseless import is_noiseless
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.trials import WORSENING
+from diffbot_sim.identification.statistics.norms import noise_floor
 from diffbot_sim.records import Array
 
 # Prediction fits are kept for simulation unless a fit by simulation error does this much better:
@@ -44,6 +46,21 @@ def _simulating(space: Space, stretches: tuple[Stretch, ...], predicted: Array) 
     as_predicted = fit_simulation(space, stretches, predicted, evaluations=1)
     better = simulation_error(simulated) < simulation_error(as_predicted) - SIMULATION_MARGIN
     return simulated if better else None
+
+
+def is_integrators(found: Found, noise: Array) -> bool:
+    """Say whether another integrator than ours may have left, or hidden, what was found.
+
+    So it may where recordings lack an odometry's noise (2,) and not all is explained, allowing
+    for nothing, and simulated to that.
+    """
+    model = for_simulation(found).model
+    told = [stretch.twist for stretch in found.held_out]
+    free = [run_free(model, stretch).twist for stretch in found.held_out]
+    if not is_noiseless(noise_floor(told, free), noise):
+        return False
+    allowed = found.unexplained is not None or found.near_rest > 0.0
+    return allowed or bool(np.any(free_running_error(model, found.held_out) > noise))
 
 
 def without_worsening(found: Found) -> Found:

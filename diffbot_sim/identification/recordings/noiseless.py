@@ -11,11 +11,12 @@ from zlib import crc32
 import numpy as np
 
 from diffbot_sim.identification.recordings.stretches import thin
+from diffbot_sim.identification.result import ErrorNorm
 from diffbot_sim.records import Array, Run
 
 # Noise of each wheel's speed that a good odometry has [m/s].
 WHEEL_NOISE = 0.004
-# One-step errors below this share of that are no odometry's.
+# What has less than this share of it is told by no odometry.
 NOISELESS = 0.1
 
 
@@ -25,9 +26,9 @@ def odometry_noise(half_separation: float) -> Array:
     return np.array([each, each / half_separation])
 
 
-def is_noiseless(errors: Array, noise: Array) -> bool:
-    """Say whether one-step errors (2,) are too small for any odometry."""
-    return bool(np.all(errors < NOISELESS * noise))
+def is_noiseless(floor: ErrorNorm, noise: Array) -> bool:
+    """Say whether what a perfect model would leave is too little for any odometry's noise (2,)."""
+    return bool(np.all(np.array([floor.v_rmse, floor.omega_rmse]) < NOISELESS * noise))
 
 
 def with_noise(run: Run, noise: Array) -> Run:
