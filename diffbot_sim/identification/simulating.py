@@ -54,13 +54,13 @@ def is_integrators(found: Found, noise: Array) -> bool:
     So it may where recordings lack an odometry's noise (2,) and not all is explained, allowing
     for nothing, and simulated to that.
     """
-    model = for_simulation(found).model
     told = [stretch.twist for stretch in found.held_out]
-    free = [run_free(model, stretch).twist for stretch in found.held_out]
+    free = [run_free(found.selection.final.model, stretch).twist for stretch in found.held_out]
     if not is_noiseless(noise_floor(told, free), noise):
         return False
-    allowed = found.unexplained is not None or found.near_rest > 0.0
-    return allowed or bool(np.any(free_running_error(model, found.held_out) > noise))
+    if found.unexplained is not None or found.near_rest > 0.0:
+        return True
+    return bool(np.any(free_running_error(for_simulation(found).model, found.held_out) > noise))
 
 
 def without_worsening(found: Found) -> Found:

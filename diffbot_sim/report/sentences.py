@@ -51,8 +51,9 @@ NEAR_REST = (
 )
 
 NOISELESS = (
-    'The odometry has no noise, as a simulator tells it, and what is left of it may be how that '
-    'integrates: white noise of {} and {} was added, as a good odometry has.'
+    'The odometry is finer than any robot tells it, as that of a simulator or a laboratory is, and '
+    'what is left of it may be how it was made: white noise of {} and {} was added, as a good '
+    'odometry has.'
 )
 
 

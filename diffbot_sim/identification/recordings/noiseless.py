@@ -1,7 +1,7 @@
 """Recordings without noise: told again as a good odometry would have told them.
 
-Where there is no noise, what two simulators differ by is beyond all chance, and small as it is,
-names and structure come up for it that say nothing of a robot.
+Where a simulator, or a laboratory, leaves no noise, what two integrators differ by is beyond all
+chance, and small as it is, names and structure come up for it that say nothing of a robot.
 """
 
 from dataclasses import replace
