@@ -51,8 +51,8 @@ NEAR_REST = (
 )
 
 NOISELESS = (
-    'The odometry is finer than any robot tells it, as that of a simulator or a laboratory is, and '
-    'what is left of it may be how it was made: white noise of {} and {} was added, as a good '
+    'The odometry is finer than any robot tells it, as that of a simulator or a laboratory is, '
+    'and what is left of it may be how it was made: white noise of {} and {} was added, as a good '
     'odometry has.'
 )
 
