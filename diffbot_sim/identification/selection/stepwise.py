@@ -8,7 +8,12 @@ from typing import NamedTuple
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.selection.candidates import approach, begun_anew, reduce
+from diffbot_sim.identification.selection.candidates import (
+    approach,
+    begun_anew,
+    from_afresh,
+    reduce,
+)
 from diffbot_sim.identification.selection.evidence import Evidence, compare
 from diffbot_sim.identification.selection.rivals import comes_up
 from diffbot_sim.identification.selection.screening import Screen
@@ -77,7 +82,7 @@ def select(
             break
         _, best = max(entering, key=itemgetter(0))
         progress(f'{best.space.kinds[-1].name} enters')
-        path.append(Screen(shaken(begun_anew(best))))
+        path.append(Screen(shaken(begun_anew(from_afresh(path[-1], best)))))
     fits = [screen.fit for screen in path]
     final, without, support, left = _prune(fits, len(kinds), held_out, progress)
     told = [_with_outcome(trial, without, left) for trial in last.values()]
