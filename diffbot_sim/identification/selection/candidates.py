@@ -45,14 +45,12 @@ def complete(near: Fit) -> Fit:
     return fit_prediction(near.space, near.stretches, held.u, held.gains)
 
 
-def from_afresh(screen: Screen, fit: Fit) -> Fit:
-    """Fit a structure once more from where its last effect was approached; return the better fit.
+def from_afresh(near: Fit, fit: Fit) -> Fit:
+    """Fit a structure once more from where it was approached; return the better fit.
 
     By a noise model that begins anew: the one of the fit that lacks the effect may follow so much
     of what is missing that, while it is held, parameters leave for a hollow far away.
     """
-    kind = fit.space.kinds[-1]
-    near = approach(screen, kind, screen.score(kind))
     other = fit_prediction(near.space, near.stretches, near.u, FIRST_GAINS)
     return min((fit, other), key=lambda end: end.deviance(fit.sigma))
 

@@ -77,12 +77,13 @@ def select(
     while len(path) <= MOST_EFFECTS:
         trials = try_all(path[-1], kinds, held_out, progress)
         last.update({trial.kind.name: trial for trial in trials})
-        entering = [(t.evidence.delta_bic, t.fit) for t in trials if t.accepted and t.fit]
+        accepted = (trial for trial in trials if trial.accepted)
+        entering = [(t.evidence.delta_bic, t.near, t.fit) for t in accepted if t.near and t.fit]
         if not entering:
             break
-        _, best = max(entering, key=itemgetter(0))
+        _, near, best = max(entering, key=itemgetter(0))
         progress(f'{best.space.kinds[-1].name} enters')
-        path.append(Screen(shaken(begun_anew(from_afresh(path[-1], best)))))
+        path.append(Screen(shaken(begun_anew(from_afresh(near, best)))))
     fits = [screen.fit for screen in path]
     final, without, support, left = _prune(fits, len(kinds), held_out, progress)
     told = [_with_outcome(trial, without, left) for trial in last.values()]
