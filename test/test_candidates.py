@@ -8,18 +8,15 @@ from fits import SMOOTH, fitted
 
 from diffbot_sim.control.rehearsal import random_forces, rehearse
 from diffbot_sim.identification.fitting.coordinates import Space
-from diffbot_sim.identification.selection.candidates import approach, from_afresh
-from diffbot_sim.identification.selection.screening import Screen
+from diffbot_sim.identification.fitting.fit import GAIN_LIMITS
+from diffbot_sim.identification.selection.candidates import complete
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 
 
-def test_fit_that_ended_in_a_hollow_is_begun_afresh() -> None:
+def test_noise_model_that_follows_nearly_all_leads_no_fit_into_a_hollow() -> None:
     hidden = Model(effects=(ActuatorLag(time_constant=0.15),))
     plain, _ = fitted(rehearse(hidden, random_forces(1, 40.0, -9.0, 11.0), SMOOTH, 1))
-    space = Space(Model(), (ActuatorLag,))
-    in_a_hollow = replace(plain, space=space, u=np.append(plain.u, 0.6))
-    screen = Screen(plain)
-    near = approach(screen, ActuatorLag, screen.score(ActuatorLag))
-    found = from_afresh(near, in_a_hollow)
-    assert found.model.effects[0].time_constant == pytest.approx(0.15, rel=0.02)
+    space, (_, most) = Space(Model(), (ActuatorLag,)), GAIN_LIMITS
+    near = replace(plain, space=space, u=np.append(plain.u, 0.2), gains=most)
+    assert complete(near).model.effects[0].time_constant == pytest.approx(0.15, rel=0.02)

@@ -40,19 +40,15 @@ def approach(screen: Screen, kind: type[Effect], score: Score) -> Fit:
 
 
 def complete(near: Fit) -> Fit:
-    """Fit to the end what was approached: first with the noise model held, then with all."""
-    held = fit_with_noise_held(near.space, near.stretches, near.u, near.gains)
-    return fit_prediction(near.space, near.stretches, held.u, held.gains)
+    """Fit to the end what was approached, from two noise models; return the better fit.
 
-
-def from_afresh(near: Fit, fit: Fit) -> Fit:
-    """Fit a structure once more from where it was approached; return the better fit.
-
-    By a noise model that begins anew: the one of the fit that lacks the effect may follow so much
-    of what is missing that, while it is held, parameters leave for a hollow far away.
+    The one of the fit that lacks the effect may follow so much of what is missing that parameters
+    leave for a hollow far away; one that begins anew knows nothing of the floor yet.
     """
-    other = fit_prediction(near.space, near.stretches, near.u, FIRST_GAINS)
-    return min((fit, other), key=lambda end: end.deviance(fit.sigma))
+    held = fit_with_noise_held(near.space, near.stretches, near.u, near.gains)
+    known = fit_prediction(near.space, near.stretches, held.u, held.gains)
+    anew = fit_prediction(near.space, near.stretches, near.u, FIRST_GAINS)
+    return min((known, anew), key=lambda end: end.deviance(known.sigma))
 
 
 def begun_anew(fit: Fit) -> Fit:

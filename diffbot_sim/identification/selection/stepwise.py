@@ -8,12 +8,7 @@ from typing import NamedTuple
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.selection.candidates import (
-    approach,
-    begun_anew,
-    from_afresh,
-    reduce,
-)
+from diffbot_sim.identification.selection.candidates import approach, begun_anew, reduce
 from diffbot_sim.identification.selection.evidence import Evidence, compare
 from diffbot_sim.identification.selection.rivals import comes_up
 from diffbot_sim.identification.selection.screening import Screen
@@ -77,13 +72,12 @@ def select(
     while len(path) <= MOST_EFFECTS:
         trials = try_all(path[-1], kinds, held_out, progress)
         last.update({trial.kind.name: trial for trial in trials})
-        accepted = (trial for trial in trials if trial.accepted)
-        entering = [(t.evidence.delta_bic, t.near, t.fit) for t in accepted if t.near and t.fit]
+        entering = [(t.evidence.delta_bic, t.fit) for t in trials if t.accepted and t.fit]
         if not entering:
             break
-        _, near, best = max(entering, key=itemgetter(0))
+        _, best = max(entering, key=itemgetter(0))
         progress(f'{best.space.kinds[-1].name} enters')
-        path.append(Screen(shaken(begun_anew(from_afresh(near, best)))))
+        path.append(Screen(shaken(begun_anew(best))))
     fits = [screen.fit for screen in path]
     final, without, support, left = _prune(fits, len(kinds), held_out, progress)
     told = [_with_outcome(trial, without, left) for trial in last.values()]

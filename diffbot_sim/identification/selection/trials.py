@@ -53,16 +53,12 @@ Progress = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Trial:
-    """One effect tried on top of a structure.
-
-    fit: to the end, None where it was not fitted; near: where that fit set out from.
-    """
+    """One effect tried on top of a structure; fit: to the end, None where it was not fitted."""
 
     kind: type[Effect]
     fit: Fit | None
     evidence: Evidence
     outcome: str
-    near: Fit | None = None
 
     @property
     def accepted(self) -> bool:
@@ -158,7 +154,7 @@ def _completed(
         outcome = BEREFT
     elif outcome == SUPPORTED and is_of_feedback(fit, kind.name):
         outcome = HEARD
-    return Trial(kind, fit, evidence, outcome, approached.near)
+    return Trial(kind, fit, evidence, outcome)
 
 
 def _is_bereft(fit: Fit, kind: type[Effect], explained: float) -> bool:
