@@ -73,6 +73,7 @@ def _concluded(found: Found, declared: Model) -> Identification:
     models = (declared, found.recalibrated.model, final.model)
     comparisons = compare_models(declared, found.recalibrated.model, watched, held_out)
     errors = errors_of(comparisons, 'validate' if found.recordings.validate else 'held_out')
+    noise = ErrorNorm.of(odometry_noise(declared.half_separation))
     return Identification(
         verdict=_verdict(selection, unexplained),
         effects=_effects(selection, known),
@@ -89,7 +90,7 @@ def _concluded(found: Found, declared: Model) -> Identification:
         horizons=horizons(models, watched, held_out, errors),
         runs=agreement(selection.final, found.recordings.all),
         near_rest=found.near_rest,
-        added_noise=_added_noise(declared) if found.noisy else None,
+        added_noise=noise if found.noisy else None,
     )
 
 
@@ -98,11 +99,6 @@ def _candidates(declared: Model, kinds: Sequence[type[Effect]] | None) -> tuple[
     present = {effect.name for effect in declared.effects}
     chosen = laws().values() if kinds is None else kinds
     return tuple(kind for kind in chosen if kind.name not in present)
-
-
-def _added_noise(declared: Model) -> ErrorNorm:
-    v, omega = odometry_noise(declared.half_separation)
-    return ErrorNorm(float(v), float(omega))
 
 
 def _verdict(selection: Selection, unexplained: Structure | None) -> str:

@@ -3,6 +3,8 @@
 from dataclasses import dataclass, field
 from typing import Literal
 
+import numpy as np
+
 from diffbot_sim.physics.effects.empirical_force import EmpiricalForce
 from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForce
 from diffbot_sim.physics.model import Model
@@ -88,6 +90,17 @@ class ErrorNorm:
 
     v_rmse: float
     omega_rmse: float
+
+    @classmethod
+    def of(cls, pair: Array) -> 'ErrorNorm':
+        """Return the norm that a pair (2,) of v [m/s] and ω [rad/s] tells."""
+        v, omega = pair
+        return cls(float(v), float(omega))
+
+    @property
+    def pair(self) -> Array:
+        """Both as an array, shape (2,)."""
+        return np.array([self.v_rmse, self.omega_rmse])
 
 
 @dataclass(frozen=True)

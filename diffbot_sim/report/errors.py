@@ -1,6 +1,7 @@
 """The four errors, side by side: declared, recalibrated, with effects, noise floor."""
 
 from dataclasses import asdict, dataclass
+from math import nan
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from diffbot_sim.identification.result import (
     Errors,
     Identification,
 )
+from diffbot_sim.identification.statistics.norms import norm
 from diffbot_sim.records import Trajectory
 
 LABELS = {
@@ -39,15 +41,15 @@ def error_rows(errors: Errors) -> list[ErrorRow]:
     return [_row(key, getattr(errors, key), floor) for key in LABELS]
 
 
-def _row(key: str, norm: ErrorNorm, floor: ErrorNorm) -> ErrorRow:
-    v_ratio = _ratio(norm.v_rmse, floor.v_rmse)
-    omega_ratio = _ratio(norm.omega_rmse, floor.omega_rmse)
-    v, omega = 1e3 * norm.v_rmse, 1e3 * norm.omega_rmse
+def _row(key: str, error: ErrorNorm, floor: ErrorNorm) -> ErrorRow:
+    v_ratio = _ratio(error.v_rmse, floor.v_rmse)
+    omega_ratio = _ratio(error.omega_rmse, floor.omega_rmse)
+    v, omega = 1e3 * error.v_rmse, 1e3 * error.omega_rmse
     return ErrorRow(key, LABELS[key], v, omega, v_ratio, omega_ratio)
 
 
 def _ratio(error: float, floor: float) -> float:
-    return error / floor if floor > 0.0 else float('nan')
+    return error / floor if floor > 0.0 else nan
 
 
 @dataclass(frozen=True)
@@ -63,8 +65,8 @@ def horizon_rows(result: Identification) -> list[HorizonRow]:
     """List the errors by how far ahead was predicted, for the models shown."""
     rows = []
     for horizon in result.horizons:
-        norms: list[ErrorNorm] = [getattr(horizon, model) for model in models_shown(result)]
-        v, omega = [1e3 * norm.v_rmse for norm in norms], [1e3 * norm.omega_rmse for norm in norms]
+        left: list[ErrorNorm] = [getattr(horizon, model) for model in models_shown(result)]
+        v, omega = [1e3 * it.v_rmse for it in left], [1e3 * it.omega_rmse for it in left]
         rows.append(HorizonRow(horizon.name, v, omega))
     return rows
 
@@ -80,9 +82,6 @@ def run_errors(run: Comparison) -> dict[str, dict[str, float]]:
 
 
 def _norm(run: Comparison, model: Trajectory) -> ErrorNorm:
-    square = (run.twist - model.twist) ** 2
-    known = square[np.isfinite(square).all(axis=1)]
-    if not len(known):
-        return ErrorNorm(float('nan'), float('nan'))
-    v, omega = np.sqrt(known.mean(axis=0))
-    return ErrorNorm(float(v), float(omega))
+    errors = run.twist - model.twist
+    known = errors[np.isfinite(errors).all(axis=1)]
+    return norm(known) if len(known) else ErrorNorm(nan, nan)

@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import asdict
-from math import isfinite
+from math import isfinite, nan
 from typing import Any
 
 import numpy as np
@@ -84,7 +84,7 @@ def _runs(result: Identification) -> list[dict[str, Any]]:
 
 def _agreement(run: RunCheck | None) -> dict[str, Any]:
     """Tell how one of several runs agrees; null where there is only one."""
-    nothing = ErrorNorm(float('nan'), float('nan'))
+    nothing = ErrorNorm(nan, nan)
     return {
         'agrees': None if run is None else run.agrees,
         'why': None if run is None else why(run),

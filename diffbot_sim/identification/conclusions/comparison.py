@@ -27,8 +27,7 @@ def run_free(model: Model, stretch: Stretch) -> Trajectory:
 def free_running_error(model: Model, held_out: Sequence[Stretch]) -> Array:
     """Return the error of v [m/s] and ω [rad/s] on held-out stretches, pooled, shape (2,)."""
     misses = [stretch.twist - run_free(model, stretch).twist for stretch in held_out]
-    error = norm(np.concatenate(misses))
-    return np.maximum([error.v_rmse, error.omega_rmse], NOTHING)
+    return np.maximum(norm(np.concatenate(misses)).pair, NOTHING)
 
 
 def compare_models(

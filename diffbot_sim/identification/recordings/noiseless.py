@@ -28,7 +28,7 @@ def odometry_noise(half_separation: float) -> Array:
 
 def is_noiseless(floor: ErrorNorm, noise: Array) -> bool:
     """Say whether what a perfect model would leave is too little for any odometry's noise (2,)."""
-    return bool(np.all(np.array([floor.v_rmse, floor.omega_rmse]) < NOISELESS * noise))
+    return bool(np.all(floor.pair < NOISELESS * noise))
 
 
 def with_noise(run: Run, noise: Array) -> Run:

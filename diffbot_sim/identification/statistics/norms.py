@@ -18,8 +18,7 @@ FAR, CLIPS = 5.0, 10
 
 def norm(errors: Array) -> ErrorNorm:
     """Return root mean squares of the columns v and ω."""
-    v, omega = np.sqrt(np.mean(errors**2, axis=0))
-    return ErrorNorm(float(v), float(omega))
+    return ErrorNorm.of(np.sqrt(np.mean(errors**2, axis=0)))
 
 
 def noise_floor(twists: Sequence[Array], models: Sequence[Array]) -> ErrorNorm:
@@ -29,8 +28,8 @@ def noise_floor(twists: Sequence[Array], models: Sequence[Array]) -> ErrorNorm:
     noise, or what the steps of a coarse encoder stand for where that is more.
     """
     white = norm(np.concatenate([_white(t - m) for t, m in zip(twists, models, strict=True)]))
-    v, omega = resolution(np.concatenate(twists)) / np.sqrt(12.0)
-    return ErrorNorm(max(white.v_rmse, v), max(white.omega_rmse, omega))
+    coarse = resolution(np.concatenate(twists)) / np.sqrt(12.0)
+    return ErrorNorm.of(np.maximum(white.pair, coarse))
 
 
 def white_noise(twist: Array) -> Array:
