@@ -34,7 +34,7 @@ def noise_floor(twists: Sequence[Array], models: Sequence[Array]) -> ErrorNorm:
 
 def white_noise(twist: Array) -> Array:
     """Return the white noise of a measured twist (n, 2), which moves smoothly; shape (2,)."""
-    return np.asarray(np.sqrt(np.mean(_white(twist) ** 2, axis=0)))
+    return norm(_white(twist)).pair
 
 
 def _white(errors: Array) -> Array:
