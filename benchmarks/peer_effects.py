@@ -149,6 +149,12 @@ def _rough_patch(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'patch': 0.5 * size * make.plant.coulomb}
 
 
+def _puddle(make: Make, size: float, c: Chance) -> dict[str, float]:
+    radius = 0.5 + 0.5 * c.share
+    place = {'puddle_x': radius * np.cos(c.angle), 'puddle_y': radius * np.sin(c.angle)}
+    return {'puddle': max(0.8 * size * c.sign, -0.9), 'puddle_radius': radius, **place}
+
+
 def _carpet(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'carpet': 0.3 * size, 'carpet_time': DURATION * (0.2 + 0.35 * c.share)}
 
@@ -239,6 +245,7 @@ EFFECTS: dict[str, Law] = {
 FOREIGN: dict[str, Law] = {
     'speed_bump': _speed_bump,
     'rough_patch': _rough_patch,
+    'puddle': _puddle,
     'carpet': _carpet,
     'slip_loss': _slip_loss,
     'sway': _sway,

@@ -1,6 +1,6 @@
 """Forces of the peer plant: from commands to wheels, on the body, and the limits of friction."""
 
-from math import copysign, cos, exp, floor, log, pi, sin
+from math import copysign, cos, exp, floor, hypot, log, pi, sin
 
 from numba import njit
 from peer_plant import Plant
@@ -75,7 +75,7 @@ def body_torque(p: Plant, mass: float, v: float, omega: float, yaw: float) -> fl
 def wheel_friction(
     p: Plant,
     time: float,
-    x: float,
+    place: tuple[float, float],
     angle: float,
     speed: float,
     rest: float,
@@ -84,8 +84,8 @@ def wheel_friction(
 ) -> tuple[float, float, float, float]:
     """Return dry friction [N] forward, backward and viscous friction [N·s/m] likewise.
 
-    angle: how far the wheel has turned [rad]; rest: for how long it has been at rest [s]; force:
-    what drives it [N].
+    place: of the wheel [m]; angle: how far it has turned [rad]; rest: for how long it has been at
+    rest [s]; force: what drives it [N].
     """
     aged = 1.0 + p.warming * (1.0 - exp(-time / p.warm_time)) + p.wear * time
     if time >= p.load_time:
@@ -95,12 +95,14 @@ def wheel_friction(
     dry = aged * (p.coulomb + (p.static - p.coulomb) * exp(-p.stribeck * abs(speed)))
     dry += p.settling * log(1.0 + rest / SETTLES) + p.gear * abs(force)
     if p.tight != 0.0:
-        place = p.tight_right if right else p.tight_left
-        dry *= 1.0 + p.tight * max(cos(angle - place), 0.0) ** 3
+        rubs = p.tight_right if right else p.tight_left
+        dry *= 1.0 + p.tight * max(cos(angle - rubs), 0.0) ** 3
+    if hypot(place[0] - p.puddle_x, place[1] - p.puddle_y) < p.puddle_radius:
+        dry *= 1.0 + p.puddle
     viscous = aged * p.viscous
     if not right:
         dry *= 1.0 + p.left_dry
         viscous *= 1.0 + p.left_viscous
-    rough = p.patch if sin(pi * x / p.patch_width) > 0.0 else 0.0
+    rough = p.patch if sin(pi * place[0] / p.patch_width) > 0.0 else 0.0
     back, back_viscous = dry * (1.0 + p.backward_dry), viscous * (1.0 + p.backward_viscous)
     return dry + rough, back + rough, viscous, back_viscous

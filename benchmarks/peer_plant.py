@@ -84,6 +84,11 @@ class Plant(NamedTuple):
     # Dry friction of each wheel [N] on every second band of the floor across x, of a width [m].
     patch: float = 0.0
     patch_width: float = 1.0
+    # By which share dry friction is larger, or smaller, within a radius [m] of a place [m].
+    puddle: float = 0.0
+    puddle_x: float = 0.0
+    puddle_y: float = 0.0
+    puddle_radius: float = 1.0
     # By which share friction is larger from a moment [s] on: another floor.
     carpet: float = 0.0
     carpet_time: float = 0.0

@@ -69,8 +69,12 @@ def _roll(p: Plant, s: Array, time: float, force_r: float, force_l: float) -> No
     torque = body_torque(p, mass, v, omega, s[YAW]) + p.half * (force_r - force_l) + turning
     around = p.half * torque * STEP / inertia
     old_r, old_l = s[RIGHT], s[LEFT]
-    limits_r = wheel_friction(p, time, s[X], s[ANGLE_R], old_r, s[REST_R], force_r, True)
-    limits_l = wheel_friction(p, time, s[X], s[ANGLE_L], old_l, s[REST_L], force_l, False)
+    limits_r = wheel_friction(
+        p, time, _wheel_at(s, p.half), s[ANGLE_R], old_r, s[REST_R], force_r, True
+    )
+    limits_l = wheel_friction(
+        p, time, _wheel_at(s, -p.half), s[ANGLE_L], old_l, s[REST_L], force_l, False
+    )
     free_r, free_l = old_r + along + around, old_l + along - around
     _stick_or_slide(p, s, (mass, inertia), (limits_r, limits_l), free_r, free_l)
     mean_r, mean_l = 0.5 * (old_r + s[RIGHT]) * STEP, 0.5 * (old_l + s[LEFT]) * STEP
@@ -85,6 +89,12 @@ def _roll(p: Plant, s: Array, time: float, force_r: float, force_l: float) -> No
     s[SWUNG] += STEP * s[SWINGING]
     s[REST_R] = s[REST_R] + STEP if s[RIGHT] == 0.0 else 0.0
     s[REST_L] = s[REST_L] + STEP if s[LEFT] == 0.0 else 0.0
+
+
+@njit(cache=True)
+def _wheel_at(s: Array, right: float) -> tuple[float, float]:
+    """Return where a wheel is [m] that stands so far to the right [m]."""
+    return s[X] + right * sin(s[YAW]), s[Y] - right * cos(s[YAW])
 
 
 @njit(cache=True)

@@ -104,6 +104,8 @@ STRUCTURE_LABELS = {
     'hill_y': 'y [m]',
     'place_x': 'x [m]',
     'place_y': 'y [m]',
+    'patch': 'distance from the middle of the patch [m]',
+    'force_over_patch': 'distance from the middle of the patch [m]',
 }
 
 

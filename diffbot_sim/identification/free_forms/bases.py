@@ -49,7 +49,9 @@ class Basis:
     def words(self) -> str:
         """What the functions depend on."""
         rate = float(self.grid[0])
-        return VARIABLES[self.variable].words.format(rate=rate, period=1.0 / rate if rate else inf)
+        return VARIABLES[self.variable].words.format(
+            grid=self.grid, rate=rate, period=1.0 / rate if rate else inf
+        )
 
     def parted(self, rows: Array, stretches: Sequence[Stretch]) -> Array:
         """Put a row for v and ω of every used sample in the order in which parts must agree."""

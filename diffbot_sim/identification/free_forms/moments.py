@@ -12,7 +12,7 @@ from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.response import Response, responses
 from diffbot_sim.identification.fitting.views import View, views
 from diffbot_sim.identification.free_forms.structure import FORCES
-from diffbot_sim.identification.free_forms.variables import BODY
+from diffbot_sim.identification.free_forms.variable import BODY
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.statistics.guards import LIKELIHOOD_LEVEL
 from diffbot_sim.identification.statistics.robust import NORMAL, scale_of

@@ -16,7 +16,7 @@ from diffbot_sim.identification.fitting.response import responses
 from diffbot_sim.identification.fitting.views import views
 from diffbot_sim.identification.free_forms.moments import over_time
 from diffbot_sim.identification.free_forms.structure import FORCES
-from diffbot_sim.identification.free_forms.variables import BODY
+from diffbot_sim.identification.free_forms.variable import BODY
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure

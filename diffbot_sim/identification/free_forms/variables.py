@@ -1,7 +1,6 @@
 """What a force without a law may depend on, and in which form that is looked at."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -17,15 +16,12 @@ from diffbot_sim.identification.fitting.periodicity import (
 )
 from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.identification.free_forms.caster import Caster
-from diffbot_sim.identification.free_forms.floor import Order, by_place, in_time
 from diffbot_sim.identification.free_forms.forms import (
     BENT_KNOTS,
     FEW_KNOTS,
-    FINE_KNOTS,
     GROWTH_KNOTS,
     Constant,
     Fading,
-    Form,
     Growth,
     Near,
     Odd,
@@ -37,9 +33,8 @@ from diffbot_sim.identification.free_forms.forms import (
     Waves,
 )
 from diffbot_sim.identification.free_forms.past import Changes, Past
+from diffbot_sim.identification.free_forms.places import PLACES
 from diffbot_sim.identification.free_forms.quantities import (
-    along,
-    along_of_wheels,
     driving,
     others_force,
     rolling,
@@ -48,7 +43,6 @@ from diffbot_sim.identification.free_forms.quantities import (
     share_of_turning,
     time,
     time_of_wheels,
-    towards,
     turning,
     turning_of_wheels,
     wheel_speeds,
@@ -63,9 +57,9 @@ from diffbot_sim.identification.free_forms.turning_back import (
     rolled_since,
     turned_since,
 )
+from diffbot_sim.identification.free_forms.variable import BODY, WHEELS, Variable
 from diffbot_sim.identification.free_forms.warmth import Warming
 from diffbot_sim.identification.free_forms.winding import Winding
-from diffbot_sim.identification.recordings.stretches import Stretch
 
 # Rates that differ by a line width, among which the strongest were chosen; a generous count.
 LOOKED_AT = 1000
@@ -76,21 +70,6 @@ NEAR_REST = ((0.0,), CREEPING)
 TURNING_SLOWLY = (0.0, 0.02, 0.1, 0.4)
 # Shares of the speed at which turning moves a wheel, within which one that rolls may turn back.
 TURNING_BACK = ((0.0, 0.05), (0.0, 0.1))
-BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
-
-
-@dataclass(frozen=True)
-class Variable:
-    """A variable in words, its form, and along which axes a force may depend on it.
-
-    words: rate and period stand for those of the slowest wave of a form; order: in which samples
-    are cut into parts that must agree.
-    """
-
-    words: str
-    form: Form
-    axes: tuple[str, ...]
-    order: Callable[[Sequence[Stretch]], Order] = in_time
 
 
 def _alone(rates: Callable[[Sequence[View]], Sequence[float]]) -> Waves:
@@ -277,31 +256,7 @@ VARIABLES = {
         Warming(),
         ('wheels',),
     ),
-    'hill_x': Variable(
-        'where along x it is, like the pull of a hill',
-        Piecewise(along(0), towards(0), FINE_KNOTS),
-        ('v',),
-        by_place,
-    ),
-    'hill_y': Variable(
-        'where along y it is, like the pull of a hill',
-        Piecewise(along(1), towards(1), FINE_KNOTS),
-        ('v',),
-        by_place,
-    ),
-    'place_x': Variable(
-        'where along x it rolls, against the motion',
-        Piecewise(along_of_wheels(0), rolling, FINE_KNOTS),
-        ('wheels',),
-        by_place,
-    ),
-    'place_y': Variable(
-        'where along y it rolls, against the motion',
-        Piecewise(along_of_wheels(1), rolling, FINE_KNOTS),
-        ('wheels',),
-        by_place,
-    ),
-}
+} | PLACES
 # What is allowed for before anything is told, and not told itself; all the others are.
 ALLOWED_FOR = ('near_rest', 'yielding')
 # The same beside friction against turning, of which it is the part near rest.

@@ -1,0 +1,53 @@
+"""What a force may depend on: where on the floor the robot is."""
+
+from diffbot_sim.identification.free_forms.floor import by_place
+from diffbot_sim.identification.free_forms.forms import FINE_KNOTS, Piecewise
+from diffbot_sim.identification.free_forms.patch import Patch
+from diffbot_sim.identification.free_forms.quantities import (
+    along,
+    along_of_wheels,
+    rolling,
+    share_of_force,
+    towards,
+)
+from diffbot_sim.identification.free_forms.variable import Variable
+
+A_PATCH = 'within {grid[2]:.2g} m of x = {grid[0]:.2g} m, y = {grid[1]:.2g} m'
+PLACES = {
+    'hill_x': Variable(
+        'where along x it is, like the pull of a hill',
+        Piecewise(along(0), towards(0), FINE_KNOTS),
+        ('v',),
+        by_place,
+    ),
+    'hill_y': Variable(
+        'where along y it is, like the pull of a hill',
+        Piecewise(along(1), towards(1), FINE_KNOTS),
+        ('v',),
+        by_place,
+    ),
+    'place_x': Variable(
+        'where along x it rolls, against the motion',
+        Piecewise(along_of_wheels(0), rolling, FINE_KNOTS),
+        ('wheels',),
+        by_place,
+    ),
+    'place_y': Variable(
+        'where along y it rolls, against the motion',
+        Piecewise(along_of_wheels(1), rolling, FINE_KNOTS),
+        ('wheels',),
+        by_place,
+    ),
+    'patch': Variable(
+        f'whether each wheel is {A_PATCH}, against the motion',
+        Patch(rolling),
+        ('wheels',),
+        by_place,
+    ),
+    'force_over_patch': Variable(
+        f'whether each wheel is {A_PATCH}, in proportion to the commanded force',
+        Patch(share_of_force),
+        ('wheels',),
+        by_place,
+    ),
+}

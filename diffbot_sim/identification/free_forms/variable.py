@@ -1,0 +1,25 @@
+"""What a force may depend on: a variable in words, and the form in which it is looked at."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from diffbot_sim.identification.free_forms.floor import Order, in_time
+from diffbot_sim.identification.free_forms.forms import Form
+from diffbot_sim.identification.recordings.stretches import Stretch
+
+# Axes of what acts on the body, and on each wheel.
+BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A variable in words, its form, and along which axes a force may depend on it.
+
+    words: grid stands for the numbers that the functions are laid on, rate and period for those of
+    the slowest wave; order: in which samples are cut into parts that must agree.
+    """
+
+    words: str
+    form: Form
+    axes: tuple[str, ...]
+    order: Callable[[Sequence[Stretch]], Order] = in_time
