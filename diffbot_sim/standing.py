@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from diffbot_sim.records import Run
+from diffbot_sim.records import Array, Run
 
 # Without force, or counting nothing, a robot may be seen standing after so long [s]; so many
 # samples are asked.
@@ -16,6 +16,8 @@ HARMLESS, NOISE = 1e-3, 4.0
 SURE = 6.0
 # Where less than this share agrees, the robot moves.
 MOST = 0.9
+# A gyro's bias changes by less than this share of it.
+CHANGED = 0.5
 # No gyro has a greater bias [rad/s]: who turns faster and counts nothing turns on the spot.
 GREATEST = 0.1
 
@@ -44,9 +46,15 @@ def turning(run: Run) -> Turning:
     omega = twist[(_unpushed(run) | resting) & (np.abs(twist[:, 0]) < reach[0]), 1]
     if len(omega) < FEWEST:
         return NOTHING
-    middle = float(np.median(omega))
-    agrees = np.mean(np.abs(omega - middle) < reach[1]) > MOST
-    return Turning(middle, float(noise[1] / np.sqrt(len(omega)))) if agrees else NOTHING
+    told = Turning(float(np.median(omega)), float(noise[1] / np.sqrt(len(omega))))
+    agrees = np.mean(np.abs(omega - told.rate) < reach[1]) > MOST
+    return told if agrees and _is_steady(omega, told) else NOTHING
+
+
+def _is_steady(omega: Array, told: Turning) -> bool:
+    """Say whether early and late yaw rates agree: who slides down a slope turns ever faster."""
+    early, late = (float(np.median(part)) for part in np.array_split(omega, 2))
+    return abs(late - early) < max(CHANGED * abs(told.rate), 2.0 * SURE * told.error)
 
 
 def _uncounted(run: Run) -> NDArray[np.bool_]:

@@ -37,6 +37,12 @@ def test_robot_that_really_moves_without_a_command_has_no_bias() -> None:
     assert turning(drive(0.0, ForceBias(3.0, -3.0))) == NOTHING
 
 
+def test_robot_that_turns_ever_faster_without_a_command_has_no_bias() -> None:
+    run = drive()
+    twist = run.odometry.twist + np.outer(run.odometry.time, [0.0, -0.012])
+    assert turning(replace(run, odometry=replace(run.odometry, twist=twist))) == NOTHING
+
+
 def test_drive_without_a_rest_tells_nothing() -> None:
     run = drive(bias=0.03)
     pushed = replace(run.commands, force=np.ones_like(run.commands.force))
