@@ -137,8 +137,7 @@ def test_limit_that_does_not_fall_with_speed_is_not_named_for_what_makes_it_fall
 
 
 def test_interval_of_a_time_constant_longer_than_the_drive_reaches_far() -> None:
-    result = identify([run_of(with_typical('friction_drift'), 3)], DECLARED)
-    found = result.effects[0].parameters['time_constant']
+    found = answer('friction_drift').effects[0].parameters['time_constant']
     assert found.low < 150.0 < 1.3 * found.value < found.high
 
 
