@@ -217,6 +217,12 @@ def _ground_waves(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'wave': 0.03 * size * c.sign, 'wave_length': 1.0 + 2.0 * c.share}
 
 
+def _mound(make: Make, size: float, c: Chance) -> dict[str, float]:
+    radius = 0.4 + 0.3 * c.share
+    place = {'mound_x': 2.0 * radius * np.cos(c.angle), 'mound_y': 2.0 * radius * np.sin(c.angle)}
+    return {'mound': 0.03 * size * c.sign, 'mound_radius': radius, **place}
+
+
 def _tether(make: Make, size: float, c: Chance) -> dict[str, float]:
     return {'tether': 0.1 * size * make.push, 'tether_slack': 0.5 + c.share}
 
@@ -260,6 +266,7 @@ FOREIGN: dict[str, Law] = {
     'swinging_load': _swinging_load,
     'veering_wind': _veering_wind,
     'ground_waves': _ground_waves,
+    'mound': _mound,
     'tether': _tether,
 }
 

@@ -135,6 +135,11 @@ class Plant(NamedTuple):
     # Ground in waves along x: how steep at most [rad], and how long [m].
     wave: float = 0.0
     wave_length: float = 1.0
+    # A round mound [m], or a hollow: e^(−½) of its height at a radius [m] of a place [m].
+    mound: float = 0.0
+    mound_x: float = 0.0
+    mound_y: float = 0.0
+    mound_radius: float = 1.0
     # A tether that pulls back [N/m] beyond a length [m].
     tether: float = 0.0
     tether_slack: float = 0.0

@@ -102,6 +102,7 @@ STRUCTURE_LABELS = {
     'warmth': 'mean speed of a wheel lately, either way [m/s]',
     'hill_x': 'x [m]',
     'hill_y': 'y [m]',
+    'round_hill': 'distance from the middle of the hill or hollow [m]',
     'place_x': 'x [m]',
     'place_y': 'y [m]',
     'patch': 'distance from the middle of the patch [m]',

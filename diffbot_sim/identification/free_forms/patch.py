@@ -1,24 +1,22 @@
-"""A round patch of the floor that is unlike the rest: carpet, water, gravel.
+"""A round patch of the floor that is unlike the rest: carpet, water, gravel."""
 
-Where it may be is told, before any simulation, by errors of one sense that lie together.
-"""
-
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import ceil
 from typing import ClassVar
 
 import numpy as np
-from scipy.signal import fftconvolve
 
 from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.identification.free_forms.forms import Of
+from diffbot_sim.identification.free_forms.spotting import (
+    LEAST,
+    LOOKED_AT,
+    Cells,
+    around,
+    gathered,
+)
 from diffbot_sim.records import Array
 
-# Cells along the longer side of the floor, and radii of patches in them.
-CELLS, RADII = 64, np.array([2.5, 4.0, 6.0, 8.5, 12.0, 17.0])
-# How many patches are tried, and the least share of all that is seen in one, or beyond it.
-KEPT, LEAST = 3, 0.02
 # A patch begins and ends softly, around its edge [radii].
 EDGE, WITHIN = (0.8, 1.2), (1.0, 0.0)
 # What is drawn: so many points, as far as this from the middle [radii].
@@ -30,11 +28,10 @@ class Patch:
     """The same all over a patch and nothing beyond, in proportion to weights."""
 
     weights: Of
-    # Patches of all radii that are as good as apart, generously.
-    looked_at: ClassVar[int] = 1000
+    looked_at: ClassVar[int] = LOOKED_AT
 
     def grids(self, views: Sequence[View]) -> list[Array]:
-        """Return the middle [m] and the radius [m] of patches, the one that stands out most first.
+        """Return the middle and the radius [m] of patches, the one that stands out most first.
 
         None where no pose is known.
         """
@@ -44,7 +41,9 @@ class Patch:
         places = np.concatenate([wheel_places(view).reshape(-1, 2) for view in seen])
         weights = np.concatenate([self.weights(view).ravel() for view in seen])
         errors = np.concatenate([(view.innovation @ view.mix).ravel() for view in seen])
-        return list(_standing_out(places, weights, errors))
+        cells = Cells.of(places)
+        squares, products = cells.sums(weights**2), cells.sums(weights * errors)
+        return list(cells.spots(lambda radius: _power(squares, products, radius)))
 
     def columns(self, view: View, patch: Array) -> Array:
         """Evaluate it along a stretch, for each wheel where that wheel is."""
@@ -71,40 +70,14 @@ def wheel_places(view: View) -> Array:
     return np.stack([pose[:, :2] + to_the_right, pose[:, :2] - to_the_right], axis=1)
 
 
-def _standing_out(places: Array, weights: Array, errors: Array) -> Iterator[Array]:
-    """Find patches in which errors in proportion to weights are unlike those beyond.
-
-    Of patches that overlap by much, only the best.
-    """
-    lowest, side = places.min(axis=0), float(np.ptp(places, axis=0).max())
-    if side == 0.0:
-        return
-    cell = side / CELLS
-    at = tuple(((places - lowest) / cell).astype(int).T)
-    squares, products = np.zeros((2, CELLS + 1, CELLS + 1))
-    np.add.at(squares, at, weights**2)
-    np.add.at(products, at, weights * errors)
-    power = np.stack([_power(squares, products, radius) for radius in RADII])
-    rows, columns = np.indices(squares.shape)
-    for _ in range(KEPT):
-        size, row, column = np.unravel_index(power.argmax(), power.shape)
-        if power[size, row, column] <= 0.0:
-            return
-        middle = lowest + cell * (np.array([row, column]) + 0.5)
-        yield np.append(middle, cell * RADII[size])
-        away = np.hypot(rows - row, columns - column)
-        power[away < np.maximum(RADII, RADII[size])[:, None, None]] = 0.0
-
-
 def _power(squares: Array, products: Array, radius: float) -> Array:
     """Return how far errors in a patch around each cell are from all, squared.
 
     squares: of the weights, products: of weights and errors, in each cell.
     """
-    reach = ceil(radius)
-    disc = np.hypot(*np.mgrid[-reach : reach + 1, -reach : reach + 1]) <= radius
-    inside, told = (fftconvolve(it, disc.astype(float), mode='same') for it in (squares, products))
+    disc = (np.hypot(*around(radius)) <= 1.0).astype(float)
+    inside, told = gathered(squares, disc), gathered(products, disc)
     share = inside / max(float(squares.sum()), 1.0)
-    apart = told - share * products.sum()
     seen = (share > LEAST) & (share < 1.0 - LEAST)
+    apart = told - share * products.sum()
     return np.asarray(seen * apart**2 / np.where(seen, inside * (1.0 - share), 1.0))

@@ -10,6 +10,7 @@ from diffbot_sim.identification.free_forms.quantities import (
     share_of_force,
     towards,
 )
+from diffbot_sim.identification.free_forms.round_hill import RoundHill
 from diffbot_sim.identification.free_forms.variable import Variable
 
 A_PATCH = 'within {grid[2]:.2g} m of x = {grid[0]:.2g} m, y = {grid[1]:.2g} m'
@@ -24,6 +25,12 @@ PLACES = {
         'where along y it is, like the pull of a hill',
         Piecewise(along(1), towards(1), FINE_KNOTS),
         ('v',),
+        by_place,
+    ),
+    'round_hill': Variable(
+        f'where it is, like the pull of a hill or a hollow {A_PATCH}',
+        RoundHill(),
+        ('wheels',),
         by_place,
     ),
     'place_x': Variable(
