@@ -20,6 +20,7 @@ from diffbot_sim.report.errors import (
     models_shown,
     run_errors,
 )
+from diffbot_sim.report.floor import floor_figures
 from diffbot_sim.report.numerals import significant
 from diffbot_sim.report.spectra import spectrum_figures
 
@@ -51,6 +52,7 @@ def page_text(result: Identification) -> str:
             error_figures=figures.error_figures(result.errors),
             effects=[rows.effect_row(effect) for effect in result.effects],
             structure=result.unexplained and figures.structure_figure(result.unexplained),
+            floor=floor_figures(result),
             strength=result.unexplained and sentences.structure(result.unexplained),
             runs=[_run_part(result, run) for run in result.comparisons],
             dependence=figures.residual_figures(result) if result.comparisons else [],
