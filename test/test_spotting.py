@@ -6,8 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from diffbot_sim.identification.free_forms.patch import Patch, wheel_places
+from diffbot_sim.identification.free_forms.patch import Patch
 from diffbot_sim.identification.free_forms.round_hill import RoundHill
+from diffbot_sim.identification.free_forms.spotting import wheel_places
 from diffbot_sim.records import Array
 
 HALF, COUNT = 0.2, 6000

@@ -2,45 +2,37 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from itertools import product
 
 import numpy as np
 
 from diffbot_sim.identification.fitting.views import View
-from diffbot_sim.identification.free_forms.patch import wheel_places
 from diffbot_sim.identification.free_forms.spotting import (
-    LEAST,
-    LOOKED_AT,
     Cells,
+    Power,
+    Spot,
     around,
     gathered,
+    wheel_places,
 )
 from diffbot_sim.records import Array
 
-# What is drawn: so many points, as far as this from the middle [radii].
+# The least that is seen of a hill, as a share of the hill of its radius that is seen best.
+LEAST = 0.02
+# What is drawn: so many points, as far as this from the top [radii].
 POINTS, DRAWN = 41, 1.5
 
 
 @dataclass(frozen=True)
-class RoundHill:
+class RoundHill(Spot):
     """The pull of a round hill on each wheel: nothing on its top and beyond its radius."""
 
-    looked_at: ClassVar[int] = LOOKED_AT
-
-    def grids(self, views: Sequence[View]) -> list[Array]:
-        """Return the top and the radius [m] of hills, the one that stands out most first.
-
-        None where no pose is known.
-        """
-        seen = [view for view in views if view.stretch.pose is not None]
-        if not seen:
-            return []
-        cells = Cells.of(np.concatenate([wheel_places(view).reshape(-1, 2) for view in seen]))
-        facing = np.repeat(np.concatenate([_facing(view) for view in seen]), 2, axis=0)
-        errors = np.concatenate([(view.innovation @ view.mix).ravel() for view in seen])
-        products = [cells.sums(along * errors) for along in facing.T]
-        squares = [[cells.sums(one * other) for one in facing.T] for other in facing.T]
-        return list(cells.spots(lambda radius: _power(squares, products, radius)))
+    def power(self, seen: Sequence[View], cells: Cells, errors: Array) -> Power:
+        """Return by how much a hill lowers the squares of the errors."""
+        facing = np.repeat(np.concatenate([_facing(view) for view in seen]), 2, axis=0).T
+        products = [cells.sums(along * errors) for along in facing]
+        squares = [[cells.sums(one * other) for one in facing] for other in facing]
+        return lambda radius: _power(squares, products, radius)
 
     def columns(self, view: View, hill: Array) -> Array:
         """Evaluate the pull on both wheels along a stretch."""
@@ -68,13 +60,16 @@ def _steepness(away: Array) -> Array:
 
 
 def _power(squares: list[list[Array]], products: list[Array], radius: float) -> Array:
-    """Return how well errors fit a hill around each cell.
+    """Return it for a radius [cells], from what lies along the robot of x and y in each cell.
 
-    squares: in each cell, of what lies along the robot of x and y; products: of that and errors.
+    squares: of both with both; products: of both with the errors.
     """
     place = around(radius)
     slope = [along * _steepness(np.hypot(*place)) for along in place]
-    told = sum(map(gathered, products, slope))
-    size = sum(gathered(squares[i][j], slope[i] * slope[j]) for i in range(2) for j in range(2))
-    seen = size > LEAST * np.max(size)
+    told: Array = np.sum([gathered(*pair) for pair in zip(products, slope, strict=True)], axis=0)
+    size: Array = np.sum(
+        [gathered(squares[i][j], slope[i] * slope[j]) for i, j in product((0, 1), repeat=2)],
+        axis=0,
+    )
+    seen = size > LEAST * size.max()
     return np.asarray(seen * told**2 / np.where(seen, size, 1.0))
