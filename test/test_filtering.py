@@ -11,8 +11,11 @@ from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.fitting.filtering import unfiltered
 from diffbot_sim.physics import Model
+from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 from diffbot_sim.records import Commands, Odometry, Run
+
+LATENESS = (ActuatorDelay, ActuatorLag)
 
 
 def filtered(run: Run, time_constant: float) -> Run:
@@ -50,7 +53,7 @@ def test_filtered_twists_do_not_make_a_robot_late() -> None:
 
 def test_lag_of_the_actuators_is_told_from_that_of_a_filter() -> None:
     run = driven((ActuatorLag(0.15),), Surroundings())
-    answer = identify([filtered(run, 0.05)], Model())
+    answer = identify([filtered(run, 0.05)], Model(), kinds=LATENESS)
     (effect,) = answer.effects
     assert effect.name == 'actuator_lag'
     assert effect.parameters['time_constant'].value == pytest.approx(0.15, rel=0.03)
@@ -62,14 +65,16 @@ def test_twists_in_coarse_steps_went_through_no_filter() -> None:
     slow = Commands(time, 5.0 * np.sin(np.outer(time, (0.5, 0.37))))
     run = rehearse(Model(effects=(ActuatorLag(0.15),)), slow, Surroundings(), 3)
     steps = 0.05 * np.round(run.odometry.twist / 0.05)
-    answer = identify([replace(run, odometry=replace(run.odometry, twist=steps))], Model())
+    run = replace(run, odometry=replace(run.odometry, twist=steps))
+    answer = identify([run], Model(), kinds=LATENESS)
     assert 'filter' not in [it.taken for it in answer.timings]
 
 
 @pytest.mark.parametrize('share', [1.0, 0.01])
 def test_late_robot_is_not_taken_for_a_filter(share: float) -> None:
     run = driven((ActuatorLag(0.08),), Surroundings(0.004 * share, 0.008 * share))
-    answer = identify([replace(run, odometry=replace(run.odometry, pose=None))], Model())
+    run = replace(run, odometry=replace(run.odometry, pose=None))
+    answer = identify([run], Model(), kinds=LATENESS)
     assert [effect.name for effect in answer.effects] == ['actuator_lag']
     assert not answer.timings
 
@@ -86,7 +91,7 @@ def coloured(run: Run, memory: float) -> Run:
 @pytest.mark.parametrize('memory', [0.05, 0.1])
 def test_late_robot_with_coloured_noise_is_not_taken_for_a_filter(memory: float) -> None:
     run = driven((ActuatorLag(0.08),), Surroundings(1e-5, 1e-5))
-    answer = identify([coloured(run, memory)], Model())
+    answer = identify([coloured(run, memory)], Model(), kinds=LATENESS)
     assert [effect.name for effect in answer.effects] == ['actuator_lag']
     # Without a pose it may well be undecided whether the twists are means.
     assert 'filter' not in [it.taken for it in answer.timings]

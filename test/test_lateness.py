@@ -104,7 +104,7 @@ def test_differences_of_encoders_do_not_make_a_robot_late(with_pose: bool) -> No
     run = counted(driven(Model()), 1)
     if not with_pose:
         run = replace(run, odometry=replace(run.odometry, pose=None))
-    answer = identify([run], Model())
+    answer = identify([run], Model(), kinds=LATENESS)
     assert answer.verdict == 'nothing_missing'
     assert [it.lateness for it in answer.timings] == pytest.approx([0.01])
 
@@ -172,14 +172,14 @@ def test_true_pose_lets_a_delay_within_an_interval_be_named() -> None:
 
 def test_rolling_mean_hides_no_delay() -> None:
     run = counted(driven(Model(effects=(ActuatorDelay(0.08),))), 5)
-    (effect,) = identify([run], Model()).effects
+    (effect,) = identify([run], Model(), kinds=LATENESS).effects
     assert effect.name == 'actuator_delay'
     assert effect.parameters['time'].value == pytest.approx(0.08, abs=0.002)
 
 
 def test_delay_beside_coarse_means_is_told_less_what_they_are_late() -> None:
     run = counted(driven(Model(effects=(ActuatorDelay(0.06),))), 1)
-    answer = identify([run], Model())
+    answer = identify([run], Model(), kinds=LATENESS)
     (effect,), (timing,) = answer.effects, answer.timings
     assert timing.taken == 'mean'
     assert effect.parameters['time'].value == pytest.approx(0.06, abs=0.001)
