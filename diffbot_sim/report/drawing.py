@@ -100,3 +100,10 @@ def stacked(height: int, x: str, upper: str, lower: str) -> Json:
         yaxis=axis(upper, domain=[0.53, 1.0]),
         yaxis2=axis(lower, domain=[0.0, 0.47]),
     )
+
+
+def plane(height: int, **more: Any) -> Json:
+    """Return the layout of a map, of one scale along x and y."""
+    x_axis = axis('x [m]', constrain='domain')
+    y_axis = axis('y [m]', constrain='domain', scaleanchor='x', scaleratio=1)
+    return layout(height, xaxis=x_axis, yaxis=y_axis, hovermode='closest', **more)

@@ -25,6 +25,7 @@ from diffbot_sim.report.drawing import (
     band,
     layout,
     line,
+    plane,
     stacked,
 )
 from diffbot_sim.report.errors import LABELS, error_rows, models_shown
@@ -80,10 +81,7 @@ def _path(run: Comparison, pose: Array, models: tuple[str, ...]) -> Figure:
     for model in models:
         x, y, _ = getattr(run, model).pose.T
         data.append(line(x, y, _label(model), COLOURS[model], dash=DASHES[model]))
-    x_axis = axis('x [m]', constrain='domain')
-    y_axis = axis('y [m]', constrain='domain', scaleanchor='x', scaleratio=1)
-    look = layout(460, xaxis=x_axis, yaxis=y_axis, hovermode='closest')
-    return Figure('Path in the plane', 'All start from the measured pose.', data, look)
+    return Figure('Path in the plane', 'All start from the measured pose.', data, plane(460))
 
 
 def residual_figures(result: Identification, each: int = 3) -> list[Figure]:

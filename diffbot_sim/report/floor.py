@@ -2,14 +2,12 @@
 
 import numpy as np
 
-from diffbot_sim.identification.result import Comparison, Identification, Structure
+from diffbot_sim.identification.result import Comparison, Identification
 from diffbot_sim.records import Array
-from diffbot_sim.report.drawing import COLOURS, Figure, Json, axis, column, layout, line, thinned
+from diffbot_sim.report.drawing import COLOURS, Figure, Json, column, line, plane, thinned
 
 # Colours are the strongest beyond this quantile of the forces.
 STRONGEST = 0.98
-# What a positive force does.
-FORWARD, OUTWARD = 'in the sense of the motion', 'away from the middle'
 
 
 def floor_figures(result: Identification) -> list[Figure]:
@@ -18,32 +16,32 @@ def floor_figures(result: Identification) -> list[Figure]:
     None where what is left depends on no spot of the floor, or no pose was recorded.
     """
     left = result.unexplained
-    runs = [run for run in result.comparisons if run.pose is not None]
-    if left is None or left.spot is None or not runs:
+    seen = [(run, run.pose) for run in result.comparisons if run.pose is not None]
+    if left is None or left.spot is None or not seen:
         return []
-    place = np.concatenate([run.pose for run in runs if run.pose is not None])[:, :2]
-    force = np.concatenate([_sense(run, left) * run.disturbance[:, 0] for run in runs])
+    if left.variable == 'round_hill':
+        meaning, senses = 'away from the middle', [_outward(pose, left.spot) for _, pose in seen]
+    else:
+        meaning, senses = 'in the sense of the motion', [_forward(run) for run, _ in seen]
+    place = np.concatenate([pose[:, :2] for _, pose in seen])
+    force = np.concatenate(senses) * np.concatenate([run.disturbance[:, 0] for run, _ in seen])
     note = (
-        f'The force that the model lacks, as estimated on held-out data, {_meaning(left)}; '
+        f'The force that the model lacks, as estimated on held-out data, {meaning}; '
         'the circle is the spot on which it depends.'
     )
-    x_axis = axis('x [m]', constrain='domain')
-    y_axis = axis('y [m]', constrain='domain', scaleanchor='x', scaleratio=1)
-    look = layout(460, xaxis=x_axis, yaxis=y_axis, hovermode='closest', showlegend=False)
     data = [_way(place, force), _circle(left.spot)]
-    return [Figure('Where on the floor it acts', note, data, look)]
+    return [Figure('Where on the floor it acts', note, data, plane(460, showlegend=False))]
 
 
-def _meaning(left: Structure) -> str:
-    return OUTWARD if left.variable == 'round_hill' else FORWARD
+def _forward(run: Comparison) -> Array:
+    """Return 1 where the robot drives forward, -1 where it drives backward."""
+    return np.sign(run.twist[:, 0])
 
 
-def _sense(run: Comparison, left: Structure) -> Array:
-    """Return 1 where a force along the robot has the sense that is drawn, else -1."""
-    if _meaning(left) == FORWARD or left.spot is None or run.pose is None:
-        return np.sign(run.twist[:, 0])
-    x, y = (run.pose[:, :2] - left.spot[:2]).T
-    return np.asarray(np.sign(x * np.cos(run.pose[:, 2]) + y * np.sin(run.pose[:, 2])))
+def _outward(pose: Array, spot: Array) -> Array:
+    """Return 1 where the robot faces away from the middle of a spot, -1 where towards it."""
+    x, y = (pose[:, :2] - spot[:2]).T
+    return np.asarray(np.sign(x * np.cos(pose[:, 2]) + y * np.sin(pose[:, 2])))
 
 
 def _way(place: Array, force: Array) -> Json:

@@ -58,5 +58,3 @@ PLACES = {
         by_place,
     ),
 }
-# Those whose functions are laid on a spot: its middle and its radius.
-SPOTS = ('round_hill', 'patch', 'force_over_patch')

@@ -7,6 +7,7 @@ from itertools import product
 import numpy as np
 
 from diffbot_sim.identification.fitting.views import View
+from diffbot_sim.identification.free_forms.quantities import towards
 from diffbot_sim.identification.free_forms.spotting import (
     Cells,
     Power,
@@ -50,8 +51,7 @@ class RoundHill(Spot):
 
 def _facing(view: View) -> Array:
     """Return how much of x and of y lies along the robot, shape (k, 2)."""
-    heading = view.stretch.heading
-    return np.column_stack([np.cos(heading), np.sin(heading)])
+    return np.column_stack([towards(index)(view) for index in (0, 1)])
 
 
 def _steepness(away: Array) -> Array:

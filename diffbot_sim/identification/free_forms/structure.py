@@ -18,7 +18,7 @@ from diffbot_sim.identification.free_forms.dependence import (
     worth_of,
 )
 from diffbot_sim.identification.free_forms.floor import by_place
-from diffbot_sim.identification.free_forms.places import SPOTS
+from diffbot_sim.identification.free_forms.spotting import Spot
 from diffbot_sim.identification.free_forms.variables import VARIABLES
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
@@ -153,5 +153,5 @@ def describe(dependence: Dependence, fit: Fit) -> Structure:
         force=curve,
         force_error=error,
         worth=worth_of(dependence, fit),
-        spot=basis.grid if basis.variable in SPOTS else None,
+        spot=basis.grid if isinstance(VARIABLES[basis.variable].form, Spot) else None,
     )
