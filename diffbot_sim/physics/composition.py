@@ -8,29 +8,15 @@ from types import FunctionType
 from typing import Any, NamedTuple
 from uuid import uuid4
 
-from numba import types
-
 from diffbot_sim.physics.compiled import Function, Pointer, compiled, digest_of, entry
+from diffbot_sim.physics.dynamics import SIGNATURES, Dynamics
 from diffbot_sim.physics.effects import Effect
-from diffbot_sim.physics.instant import (
-    Inputs,
-    Instant,
-    gather,
-    nominal_balance,
-    nominal_law,
-)
-from diffbot_sim.physics.stages import Load, Motion, Stage, Traction, numba_type
+from diffbot_sim.physics.instant import gather, nominal_balance, nominal_law
+from diffbot_sim.physics.runge_kutta import runge_kutta
+from diffbot_sim.physics.stages import Load, Stage, Traction
 
-ARRAY = types.Array(types.float64, 1, 'C')
 # Where the first effect's parameters stand in Model.pack().
 BODY_PARAMETERS = 9
-
-
-# The compiled stages of a set: (params, states, motion, inputs, right, left) -> Instant,
-# where right and left are the directions in which the wheels roll or are pushed.
-Laws = Callable[..., Instant]
-# (params, states, motion, inputs) -> None: writes the states reached after motion.elapsed.
-Settle = Callable[..., None]
 
 
 class _Link(NamedTuple):
@@ -44,17 +30,8 @@ class _Link(NamedTuple):
     last_state: int
 
 
-_PLACE = (ARRAY, ARRAY, numba_type(Motion), numba_type(Inputs))
-LAWS_SIGNATURE = numba_type(Instant)(*_PLACE, types.float64, types.float64)
-SETTLE_SIGNATURE = types.void(*_PLACE)
-FUNCTION_TYPES = (
-    types.FunctionType(LAWS_SIGNATURE),
-    types.FunctionType(SETTLE_SIGNATURE),
-)
-
-
 @cache
-def compose(kinds: tuple[type[Effect], ...]) -> tuple[Laws, Settle]:
+def compose(kinds: tuple[type[Effect], ...]) -> Dynamics:
     """Compile the functions for a set of effects, given in order of evaluation."""
     links, key = _links(kinds), _key(kinds)
     driving = links[Stage.COMMAND] + links[Stage.ACTUATOR] + links[Stage.DRIVETRAIN]
@@ -65,10 +42,13 @@ def compose(kinds: tuple[type[Effect], ...]) -> tuple[Laws, Settle]:
         'weigh': links[Stage.INERTIA],
     }
     chains = {name: _chain(part, f'{name}_{key}') for name, part in parts.items()}
-    live = _settle_chain(driving, f'live_{key}')
-    evaluate = entry(LAWS_SIGNATURE, key)(_bound(_laws, chains))
-    move_on = entry(SETTLE_SIGNATURE, key)(_bound(_settle, {'live': live}))
-    return Pointer(evaluate, LAWS_SIGNATURE), Pointer(move_on, SETTLE_SIGNATURE)
+    bodies = Dynamics(
+        laws=_bound(_laws, chains),
+        settle=_bound(_settle, {'live': _settle_chain(driving, f'live_{key}')}),
+        step=_bound(runge_kutta, {'laws': _known_as(f'laws_{key}')(_bound(_laws, chains))}),
+    )
+    pairs = zip(bodies, SIGNATURES, strict=True)
+    return Dynamics(*(Pointer(entry(own, key)(body), own) for body, own in pairs))
 
 
 def _key(kinds: tuple[type[Effect], ...]) -> str:
@@ -198,4 +178,4 @@ def _bound(body: Function, chains: dict[str, Any]) -> Function:
 
     As globals, not as a closure: numba would not recognise a closure on disk.
     """
-    return FunctionType(body.__code__, {**globals(), **chains}, body.__name__)
+    return FunctionType(body.__code__, {**body.__globals__, **chains}, body.__name__)

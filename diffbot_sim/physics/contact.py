@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diffbot_sim.physics.compiled import compiled
-from diffbot_sim.physics.composition import Laws
+from diffbot_sim.physics.dynamics import Laws
 from diffbot_sim.physics.instant import Inputs, Instant
 from diffbot_sim.physics.stages import Motion
 from diffbot_sim.physics.vector import SPEED_LEFT, SPEED_RIGHT, evaluate

@@ -7,13 +7,12 @@ import numpy as np
 from numba import types
 
 from diffbot_sim.physics.compiled import entry
-from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
+from diffbot_sim.physics.composition import compose
+from diffbot_sim.physics.dynamics import ARRAY, FUNCTION_TYPES, INTEGERS, MATRIX, Dynamics
 from diffbot_sim.physics.instant import Inputs
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import delay_of, moments_of
 from diffbot_sim.physics.simulation import (
-    INTEGERS,
-    MATRIX,
     OUTPUT_SIZE,
     initial_modes,
     initial_vector,
@@ -153,7 +152,7 @@ _SYSTEM = (*FUNCTION_TYPES, ARRAY, ARRAY, ARRAY, INTEGERS, *(types.float64,) * 3
 
 @entry(types.void(*_SYSTEM))
 def _begin(  # type: ignore[no-untyped-def]
-    laws, settle, params, states, z, modes, right, left, time
+    laws, settle, step, params, states, z, modes, right, left, time
 ) -> None:
     """Set the modes of a robot whose history is unknown."""
     initial_modes(laws, params, states, z, modes, Inputs(right, left, 0.0, 0.0), time)
@@ -163,6 +162,7 @@ def _begin(  # type: ignore[no-untyped-def]
 def _step(  # type: ignore[no-untyped-def]
     laws,
     settle,
+    step,
     params,
     states,
     z,
@@ -176,9 +176,9 @@ def _step(  # type: ignore[no-untyped-def]
     row,
 ) -> None:
     """Advance under held forces and observe the result."""
-    inputs = Inputs(right, left, 0.0, 0.0)
+    dynamics, inputs = Dynamics(laws, settle, step), Inputs(right, left, 0.0, 0.0)
     count = max(1, int(np.ceil(duration / max_step - 1e-6)))
     for i in range(count):
-        step = duration / count
-        advance(laws, settle, params, states, z, modes, inputs, time + i * step, step, work)
+        part = duration / count
+        advance(dynamics, params, states, z, modes, inputs, time + i * part, part, work)
     observe(laws, params, states, z, modes, inputs, time + duration, row)

@@ -7,11 +7,13 @@ from numba import types
 
 from diffbot_sim.physics import contact
 from diffbot_sim.physics.compiled import compiled, entry
-from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, Laws, Settle, compose
+from diffbot_sim.physics.composition import compose
 from diffbot_sim.physics.contact import Modes, instant_at
+from diffbot_sim.physics.dynamics import ARRAY, FUNCTION_TYPES, INTEGERS, MATRIX, Dynamics, Laws
 from diffbot_sim.physics.instant import Inputs
 from diffbot_sim.physics.kinematics import wheel_speeds
 from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.runge_kutta import WORK_ROWS
 from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.stages import Traction
 from diffbot_sim.physics.state import State
@@ -19,9 +21,6 @@ from diffbot_sim.physics.stepper import advance, update_contacts
 from diffbot_sim.physics.vector import STATE_SIZE, copy_state, evaluate, motion_at
 from diffbot_sim.records import Array, Commands, Trajectory
 
-MATRIX = types.Array(types.float64, 2, 'C')
-INTEGERS = types.Array(types.int64, 1, 'C')
-WORK_ROWS = 2
 # Columns of the table that drive() fills after the state z: twist, traction, friction.
 OUTPUT_SIZE = STATE_SIZE + 6
 
@@ -90,7 +89,7 @@ def initial_states(model: Model, commands: Commands, time: float) -> Array:
     first = Traction(*map(float, commands.force[0])) if known else Traction(0.0, 0.0)
     states = np.array([s for effect in model.effects for s in effect.initial_state(first)])
     if known and len(states) > 0:
-        _, settle = compose(tuple(type(effect) for effect in model.effects))
+        settle = compose(tuple(type(effect) for effect in model.effects)).settle
         stamps, force = map(np.ascontiguousarray, (commands.time, commands.force))
         _settle_through(settle, model.pack(), states, np.zeros(STATE_SIZE), stamps, force, time)
     return states
@@ -148,8 +147,7 @@ def inputs_of(drive: Drive, current: int, force: float, torque: float) -> Inputs
 
 @compiled
 def advance_held(
-    laws: Laws,
-    settle: Settle,
+    dynamics: Dynamics,
     params: Array,
     states: Array,
     z: Array,
@@ -174,7 +172,7 @@ def advance_held(
         count = max(1, int(np.ceil((end - time) / drive.max_step - 1e-6)))
         step = (end - time) / count
         for i in range(count):
-            advance(laws, settle, params, states, z, modes, inputs, time + i * step, step, work)
+            advance(dynamics, params, states, z, modes, inputs, time + i * step, step, work)
         time = end
     return command_at(drive, current, until)
 
@@ -208,17 +206,16 @@ def observe(
     )
 )
 def _simulate(  # type: ignore[no-untyped-def]
-    laws, settle, params, states, z, command_time, force, max_step, times, modes, work, out
+    laws, settle, step, params, states, z, command_time, force, max_step, times, modes, work, out
 ) -> None:
     """Simulate from times[0] and fill a row of output at each stamp."""
-    drive = Drive(command_time, force, max_step)
+    dynamics, drive = Dynamics(laws, settle, step), Drive(command_time, force, max_step)
     current, push = command_at(drive, -1, times[0]), (0.0, 0.0)
     initial_modes(laws, params, states, z, modes, inputs_of(drive, current, 0.0, 0.0), times[0])
     for k, time in enumerate(times):
         if k > 0:
             current = advance_held(
-                laws,
-                settle,
+                dynamics,
                 params,
                 states,
                 z,

@@ -5,17 +5,16 @@ step is taken. A step in which a wheel (or dry yaw friction) reaches speed 0, or
 exceeds its limit, is cut at that moment; so the method's order holds through stick-slip motion.
 """
 
-from math import cos, inf, sin
+from math import inf
 
 from diffbot_sim.physics import contact
 from diffbot_sim.physics.compiled import compiled
-from diffbot_sim.physics.composition import Laws, Settle
-from diffbot_sim.physics.contact import FREE, LEFT, RIGHT, YAW, Modes, instant_at
+from diffbot_sim.physics.contact import FREE, LEFT, RIGHT, YAW, Modes
+from diffbot_sim.physics.dynamics import Dynamics, Laws
 from diffbot_sim.physics.instant import Inputs
 from diffbot_sim.physics.vector import (
     SPEED_LEFT,
     SPEED_RIGHT,
-    STATE_SIZE,
     copy_state,
     motion_at,
 )
@@ -27,14 +26,11 @@ LOCATION = 1e-11
 MOST_EVENTS = 64
 # A step is halved, at most so often, while its stages disagree: there the method is unstable.
 MOST_HALVINGS = 12
-# The stages of y' = -λ y disagree by λ h / 2, and the method is stable up to λ h = 2.78.
-DISAGREEMENT = 1.25
 
 
 @compiled
 def advance(
-    laws: Laws,
-    settle: Settle,
+    dynamics: Dynamics,
     params: Array,
     states: Array,
     z: Array,
@@ -48,14 +44,14 @@ def advance(
     done, events = 0.0, 0
     while done < duration:
         held = events < MOST_EVENTS and update_contacts(
-            laws, params, states, z, modes, inputs, time + done
+            dynamics.laws, params, states, z, modes, inputs, time + done
         )
         left = duration - done
         taken, event = _step_to_event(
-            laws, params, states, z, modes, inputs, time + done, left, work, held
+            dynamics, params, states, z, modes, inputs, time + done, left, work, held
         )
-        at = motion_at(params, z, time + done, taken)
-        settle(params, states, at, inputs)
+        if len(states) > 0:
+            dynamics.settle(params, states, motion_at(params, z, time + done, taken), inputs)
         copy_state(work[0], z)
         if event:
             contact.arrive(z, modes)
@@ -87,7 +83,7 @@ def update_contacts(
 
 @compiled
 def _step_to_event(
-    laws: Laws,
+    dynamics: Dynamics,
     params: Array,
     states: Array,
     z: Array,
@@ -99,28 +95,28 @@ def _step_to_event(
     held: bool,
 ) -> tuple[float, bool]:
     """Leave in work[0] the state after the step, or at its first event; return (taken, event)."""
-    step = _stable_step(laws, params, states, z, modes, inputs, time, duration, work)
+    step = _stable_step(dynamics, params, states, z, modes, inputs, time, duration, work)
     if step == 0.0:
         return duration, False
-    after = _margin(laws, params, states, work[0], modes, inputs, time, step, held)
+    after = _margin(dynamics.laws, params, states, work[0], modes, inputs, time, step, held)
     if after >= 0.0:
         high = _turning_point(z, work, modes, step)
         if high >= step:
             return step, False
-        _runge_kutta(laws, params, states, z, modes, inputs, time, high, work)
-        after = _margin(laws, params, states, work[0], modes, inputs, time, high, held)
+        dynamics.step(params, states, z, modes, inputs, time, high, work)
+        after = _margin(dynamics.laws, params, states, work[0], modes, inputs, time, high, held)
         if after >= 0.0:
-            _runge_kutta(laws, params, states, z, modes, inputs, time, step, work)
+            dynamics.step(params, states, z, modes, inputs, time, step, work)
             return step, False
         step = high
-    event = _locate(laws, params, states, z, modes, inputs, time, step, work, held, after)
-    _runge_kutta(laws, params, states, z, modes, inputs, time, event, work)
+    event = _locate(dynamics, params, states, z, modes, inputs, time, step, work, held, after)
+    dynamics.step(params, states, z, modes, inputs, time, event, work)
     return event, True
 
 
 @compiled
 def _stable_step(
-    laws: Laws,
+    dynamics: Dynamics,
     params: Array,
     states: Array,
     z: Array,
@@ -133,7 +129,7 @@ def _stable_step(
     """Take the longest stable step that halving the duration gives; return it, 0 if none does."""
     step = duration
     for _ in range(MOST_HALVINGS + 1):
-        if _runge_kutta(laws, params, states, z, modes, inputs, time, step, work):
+        if dynamics.step(params, states, z, modes, inputs, time, step, work):
             return step
         step *= 0.5
     return 0.0
@@ -141,7 +137,7 @@ def _stable_step(
 
 @compiled
 def _locate(
-    laws: Laws,
+    dynamics: Dynamics,
     params: Array,
     states: Array,
     z: Array,
@@ -158,13 +154,13 @@ def _locate(
     Illinois variant of regula falsi; halving where the secant does not help.
     """
     low, side, precision = 0.0, 0, LOCATION * high
-    before = max(_margin(laws, params, states, z, modes, inputs, time, 0.0, held), 0.0)
+    before = max(_margin(dynamics.laws, params, states, z, modes, inputs, time, 0.0, held), 0.0)
     while high - low > precision:
         trial = high - after * (high - low) / (after - before)
         if not low < trial < high:
             trial = 0.5 * (low + high)
-        _runge_kutta(laws, params, states, z, modes, inputs, time, trial, work)
-        value = _margin(laws, params, states, work[0], modes, inputs, time, trial, held)
+        dynamics.step(params, states, z, modes, inputs, time, trial, work)
+        value = _margin(dynamics.laws, params, states, work[0], modes, inputs, time, trial, held)
         if value >= 0.0:
             low, before = trial, value
             after = 0.5 * after if side > 0 else after
@@ -223,62 +219,3 @@ def _turning_point(z: Array, work: Array, modes: Modes, duration: float) -> floa
         if begin > 0.0 > slope and bend > 0.0 and begin < slope * slope / (4.0 * bend):
             earliest = min(earliest, -0.5 * slope / bend)
     return earliest
-
-
-@compiled
-def _runge_kutta(
-    laws: Laws,
-    params: Array,
-    states: Array,
-    z: Array,
-    modes: Modes,
-    inputs: Inputs,
-    time: float,
-    h: float,
-    work: Array,
-) -> bool:
-    """Leave in work[0] the state after the classical fourth-order step of h, in work[1] k1.
-
-    Return whether h is short enough for the method to be stable.
-    """
-    half, probe = 0.5 * h, work[0]
-    copy_state(z, probe)
-    k1 = _derivative(laws, params, states, probe, modes, inputs, time, 0.0)
-    for i in range(STATE_SIZE):
-        work[1, i] = k1[i]
-        probe[i] = z[i] + half * k1[i]
-    k2 = _derivative(laws, params, states, probe, modes, inputs, time, half)
-    for i in range(STATE_SIZE):
-        probe[i] = z[i] + half * k2[i]
-    k3 = _derivative(laws, params, states, probe, modes, inputs, time, half)
-    for i in range(STATE_SIZE):
-        probe[i] = z[i] + h * k3[i]
-    k4 = _derivative(laws, params, states, probe, modes, inputs, time, h)
-    for i in range(STATE_SIZE):
-        probe[i] = z[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i])
-    first = abs(k2[SPEED_RIGHT] - k1[SPEED_RIGHT]) + abs(k2[SPEED_LEFT] - k1[SPEED_LEFT])
-    second = abs(k3[SPEED_RIGHT] - k2[SPEED_RIGHT]) + abs(k3[SPEED_LEFT] - k2[SPEED_LEFT])
-    size = abs(k1[SPEED_RIGHT]) + abs(k1[SPEED_LEFT])
-    return second <= DISAGREEMENT * first + 1e-6 * size
-
-
-@compiled
-def _derivative(
-    laws: Laws,
-    params: Array,
-    states: Array,
-    z: Array,
-    modes: Modes,
-    inputs: Inputs,
-    time: float,
-    elapsed: float,
-) -> tuple[float, ...]:
-    """Return dz/dt: eqs. (5), (7), (11) with friction (13), in the order of z."""
-    if modes[RIGHT] == 0 and modes[LEFT] == 0:
-        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    at = motion_at(params, z, time + elapsed, elapsed)
-    now = instant_at(laws, params, states, at, inputs, modes)
-    reaction = contact.sliding_reaction(at, now, modes)
-    right, left = contact.accelerations(now, reaction, modes)
-    dx, dy = at.v * cos(at.heading), at.v * sin(at.heading)
-    return dx, dy, at.omega, at.speed_right / params[3], at.speed_left / params[3], right, left

@@ -1,7 +1,7 @@
 """The state vector z that the stepper integrates, and what effects see of it."""
 
 from diffbot_sim.physics.compiled import compiled
-from diffbot_sim.physics.composition import Laws
+from diffbot_sim.physics.dynamics import Laws
 from diffbot_sim.physics.instant import Inputs, Instant
 from diffbot_sim.physics.kinematics import body_twist, wheel_speeds
 from diffbot_sim.physics.stages import Motion

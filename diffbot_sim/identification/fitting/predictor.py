@@ -15,15 +15,14 @@ from numba import types
 
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.physics.compiled import entry
-from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
+from diffbot_sim.physics.composition import compose
 from diffbot_sim.physics.correction import correct
+from diffbot_sim.physics.dynamics import ARRAY, FUNCTION_TYPES, INTEGERS, MATRIX, Dynamics
 from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.encoders import measured
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.simulation import (
-    INTEGERS,
-    MATRIX,
     Drive,
     advance_held,
     command_at,
@@ -101,6 +100,7 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
 def _predict(  # type: ignore[no-untyped-def]
     laws,
     settle,
+    step,
     params,
     states,
     z,
@@ -120,7 +120,7 @@ def _predict(  # type: ignore[no-untyped-def]
     snapshots,
 ) -> None:
     """Fill out: innovation, corrected twist, disturbance; and a snapshot after each sample."""
-    drive = Drive(command_time, force, max_step)
+    dynamics, drive = Dynamics(laws, settle, step), Drive(command_time, force, max_step)
     current = command_at(drive, -1, times[0])
     initial_modes(laws, params, states, z, modes, inputs_of(drive, current, 0.0, 0.0), times[0])
     pushing, turning = 0.0, 0.0
@@ -129,8 +129,7 @@ def _predict(  # type: ignore[no-untyped-def]
             acting = (pushing + push[k - 1, 0], turning + push[k - 1, 1])
             before = way_of(params, z)
             current = advance_held(
-                laws,
-                settle,
+                dynamics,
                 params,
                 states,
                 z,

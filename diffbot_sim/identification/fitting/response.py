@@ -15,9 +15,8 @@ from diffbot_sim.identification.fitting.steps import Steps
 from diffbot_sim.identification.recordings.stretches import Stretch, largest_command
 from diffbot_sim.identification.statistics.parallel import each
 from diffbot_sim.physics.compiled import compiled, entry
-from diffbot_sim.physics.composition import ARRAY
+from diffbot_sim.physics.dynamics import ARRAY, MATRIX
 from diffbot_sim.physics.model import Model
-from diffbot_sim.physics.simulation import MATRIX
 from diffbot_sim.records import Array
 
 # Differences are of the size of this share of the largest command.

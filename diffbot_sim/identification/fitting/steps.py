@@ -7,16 +7,15 @@ from diffbot_sim.identification.fitting.predictor import MAX_STEP, Prediction, p
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.minimisation import flatter
 from diffbot_sim.physics.compiled import entry
-from diffbot_sim.physics.composition import ARRAY, FUNCTION_TYPES, compose
+from diffbot_sim.physics.composition import compose
 from diffbot_sim.physics.contact import Modes
 from diffbot_sim.physics.correction import correct
+from diffbot_sim.physics.dynamics import ARRAY, FUNCTION_TYPES, INTEGERS, MATRIX, Dynamics
 from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.encoders import measured
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.simulation import (
-    INTEGERS,
-    MATRIX,
     Drive,
     advance_held,
     command_at,
@@ -93,6 +92,7 @@ def _place(prediction: Prediction) -> tuple[Array, Array, Modes, Array]:
 def _take(  # type: ignore[no-untyped-def]
     laws,
     settle,
+    step,
     params,
     command_time,
     force,
@@ -109,15 +109,15 @@ def _take(  # type: ignore[no-untyped-def]
     out,
 ) -> None:
     """Fill out: each step's end, the twist as measured and at that moment."""
-    drive, b, current = Drive(command_time, force, max_step), params[2], -1
+    dynamics, drive = Dynamics(laws, settle, step), Drive(command_time, force, max_step)
+    b, current = params[2], -1
     for k in range(1, len(times)):
         current = command_at(drive, current, times[k - 1])
         restore(snapshots[k - 1], z, modes, states)
         correct(z, modes, b, by[0], by[1])
         way, push = way_of(params, z), disturbance[k - 1]
         advance_held(
-            laws,
-            settle,
+            dynamics,
             params,
             states,
             z,

@@ -27,6 +27,8 @@ def remaining(time: float, rate: float, bend: float) -> float:
 @compiled
 def fade(at: Motion, traction: Traction, rate: float, bend: float) -> Traction:
     """Scale both forces by the gain that is left at this time."""
+    if rate == 0.0:
+        return traction
     gain = remaining(max(at.time, 0.0), rate, bend)
     return Traction(traction.right * gain, traction.left * gain)
 

@@ -43,6 +43,8 @@ def borne(
     at: Motion, law: Law, mass: float, inertia: float, moment: float, friction_share: float
 ) -> Law:
     """Let friction follow the weight."""
+    if law.burden == 1.0:
+        return law
     more = max(1.0 + friction_share * (law.burden - 1.0), 0.0)
     return scaled(law, more, more)
 

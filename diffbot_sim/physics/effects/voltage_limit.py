@@ -11,6 +11,8 @@ from diffbot_sim.physics.stages import Motion, Stage, Traction, nearly_within
 STALL, NO_LOAD = (1.0, 1.6), (1.05, 1.6)
 # What a motor can give never falls below this share of its stall force.
 LEAST = 1e-3
+# Far below what the motor gives at any speed, a force is what it was.
+FAR_BELOW = 0.25
 # So near to a corner that 0.5 % are missing there: the limit changes no faster than the speed.
 BEND = 128
 
@@ -18,6 +20,8 @@ BEND = 128
 @compiled
 def offered(force: float, speed: float, stall: float, no_load: float) -> float:
     """Return a force [N] that is hardly more than the motor can give while it drives."""
+    if abs(force) <= FAR_BELOW * LEAST * stall:
+        return force
     driving = abs(speed) if force * speed > 0.0 else 0.0
     return nearly_within(force, stall * max(1.0 - driving / no_load, LEAST), BEND)
 
