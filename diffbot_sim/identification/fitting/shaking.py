@@ -1,6 +1,7 @@
 """Fits shaken out of local minima: whether a wheel breaks away is a jump that errors hang on."""
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from diffbot_sim.identification.fitting.fit import (
     fit_prediction,
     fit_with_noise_held,
 )
+from diffbot_sim.identification.statistics.parallel import side_by_side
 from diffbot_sim.records import Array
 
 # What decides whether a wheel breaks away or sticks, and how far it is moved, in its coordinate.
@@ -28,7 +30,7 @@ def shaken(fit: Fit) -> Fit:
     for gains in (FIRST_GAINS, QUICK_GAINS):
         fit = _lower_of(fit, fit_prediction(fit.space, fit.stretches, fit.u, gains))
     for _ in range(ROUNDS):
-        nearby = (_approach(fit, start) for start in _beside(fit))
+        nearby = side_by_side(partial(_approach, fit), _beside(fit))
         near = min(nearby, key=lambda end: end.deviance(fit.sigma), default=fit)
         end = _lower_of(fit, fit_prediction(fit.space, fit.stretches, near.u, fit.gains))
         if end is fit:

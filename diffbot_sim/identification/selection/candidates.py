@@ -17,6 +17,7 @@ from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.selection.screening import Score, Screen
+from diffbot_sim.identification.statistics.parallel import side_by_side
 from diffbot_sim.identification.statistics.robust import scale_of
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
@@ -45,10 +46,17 @@ def complete(near: Fit) -> Fit:
     The one of the fit that lacks the effect may follow so much of what is missing that parameters
     leave for a hollow far away; one that begins anew knows nothing of the floor yet.
     """
-    held = fit_with_noise_held(near.space, near.stretches, near.u, near.gains)
-    known = fit_prediction(near.space, near.stretches, held.u, held.gains)
-    anew = fit_prediction(near.space, near.stretches, near.u, FIRST_GAINS)
+    known, anew = side_by_side(lambda fit: fit(near), (_completed, _completed_anew))
     return min((known, anew), key=lambda end: end.deviance(known.sigma))
+
+
+def _completed(near: Fit) -> Fit:
+    held = fit_with_noise_held(near.space, near.stretches, near.u, near.gains)
+    return fit_prediction(near.space, near.stretches, held.u, held.gains)
+
+
+def _completed_anew(near: Fit) -> Fit:
+    return fit_prediction(near.space, near.stretches, near.u, FIRST_GAINS)
 
 
 def begun_anew(fit: Fit) -> Fit:

@@ -19,6 +19,7 @@ from diffbot_sim.identification.statistics.guards import (
     lasting,
     may_be_chance,
 )
+from diffbot_sim.identification.statistics.parallel import side_by_side
 from diffbot_sim.physics.effects import Effect
 
 # What promises less than this share of the best to first order is approached, and what explains
@@ -106,7 +107,7 @@ def _judged(
     """Fit and weigh what is promising; what falls far behind only where nothing better enters."""
     best = max((score.ratio for score in promising.values()), default=0.0)
     far = {k: s for k, s in promising.items() if s.ratio < WORTH_APPROACHING * best}
-    near = [_approached(screen, k, s, progress) for k, s in promising.items() if k not in far]
+    near = _approached(screen, {k: s for k, s in promising.items() if k not in far}, progress)
     bar = WORTH_COMPLETING * max((a.fall for a in near), default=0.0)
     leaders = [a for a in near if a.fall >= bar]
     others = [a for a in near if a.fall < bar]
@@ -114,7 +115,7 @@ def _judged(
     if any(trial.accepted for trial in first):
         behind = [(a.kind, a.fall) for a in others] + [(k, s.ratio) for k, s in far.items()]
         return [*first, *(_not_fitted(screen, *told, BEHIND) for told in behind)]
-    others += [_approached(screen, k, s, progress) for k, s in far.items()]
+    others += _approached(screen, far, progress)
     return [*first, *(_completed(screen, a, held_out, tried) for a in others)]
 
 
@@ -133,10 +134,19 @@ def _led(
     return trials
 
 
-def _approached(screen: Screen, kind: type[Effect], score: Score, progress: Progress) -> _Approach:
-    progress(f'fitting {kind.name}')
-    near, base = approach(screen, kind, score), screen.fit
-    return _Approach(kind, score, near, base.deviance(base.sigma) - near.deviance(base.sigma))
+def _approached(
+    screen: Screen, promising: Mapping[type[Effect], Score], progress: Progress
+) -> list[_Approach]:
+    if promising:
+        progress(f'fitting {", ".join(kind.name for kind in promising)}')
+    base = screen.fit
+
+    def approached(kind: type[Effect]) -> _Approach:
+        score = promising[kind]
+        near = approach(screen, kind, score)
+        return _Approach(kind, score, near, base.deviance(base.sigma) - near.deviance(base.sigma))
+
+    return side_by_side(approached, promising)
 
 
 def _completed(
