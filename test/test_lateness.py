@@ -9,6 +9,7 @@ from fits import fitted
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
+from diffbot_sim.identification.leading import acted_before
 from diffbot_sim.identification.older import Ages
 from diffbot_sim.identification.recordings.lateness import lag_behind_pose, timely, timing
 from diffbot_sim.identification.recordings.recordings import Recordings
@@ -107,6 +108,15 @@ def test_differences_of_encoders_do_not_make_a_robot_late(with_pose: bool) -> No
     answer = identify([run], Model(), kinds=LATENESS)
     assert answer.verdict == 'nothing_missing'
     assert [it.lateness for it in answer.timings] == pytest.approx([0.01])
+
+
+def test_means_over_the_steps_of_a_simulator_do_not_make_a_robot_late() -> None:
+    half_a_step = 5e-4
+    run = acted_before(counted(driven(Model()), 1), -half_a_step)
+    answer = identify([run], Model(), kinds=LATENESS)
+    assert answer.verdict == 'nothing_missing'
+    told = {it.taken: it.lateness for it in answer.timings}
+    assert told == pytest.approx({'mean': 0.01, 'force': half_a_step}, abs=1e-4)
 
 
 def beside_a_gyro(run: Run) -> Run:

@@ -36,11 +36,16 @@ def lead_of(fit: Fit) -> float:
         lead = min(lead + step, LONGEST)
         if lead <= 0.0:
             return 0.0
-        led = begun_anew(_led(fit, lead))
+        led = led_by(fit, lead)
         if abs(step) < CLOSELY:
             break
     worth = likelihood_ratio(fit, led) - log(fit.whitened.size)
     return lead if worth > CLEAR else 0.0
+
+
+def led_by(fit: Fit, lead: float) -> Fit:
+    """Fit a structure again to forces that act so long before their stamps [s]."""
+    return begun_anew(_led(fit, lead))
 
 
 def _led(fit: Fit, lead: float) -> Fit:

@@ -2,9 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from functools import cached_property, partial
+from math import log
 from typing import NamedTuple
 
 from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.leading import led_by
 from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.recordings.lateness import (
     LATE,
@@ -139,12 +141,32 @@ def is_taken(older: Older, first: Fit, second: Fit, unexplained: float) -> bool:
     robot is late in fewer ways.
     unexplained: worth of a force that has no name, beside which worths are known so much worse.
     """
-    simpler = _ways_late(second) < _ways_late(first)
-    share = 1.0 if _is_of_means(first, second) else DECIDING_SHARE
-    as_good = -max(INDISTINGUISHABLE, share * unexplained)
     if older.worth(first, second) > INDISTINGUISHABLE:
         return True
-    return simpler and older.together(first, second) > as_good
+    as_good = -max(INDISTINGUISHABLE, _decided_by(first, second) * unexplained)
+    return _is_simpler(first, second) and older.together(first, second) > as_good
+
+
+def lead_of_means(older: Older, first: Fit, second: Fit, unexplained: float) -> float:
+    """Return by how much less than half an interval [s] means are late, 0 where that is not sure.
+
+    Those over the steps of a simulator are so by half a step: as if forces acted that much before
+    their stamps. With these the second fit, which takes twists as means, must be as good as the
+    first, of a robot that is late.
+    """
+    lead = _half_interval(first) - (_lateness(first) - _lateness(second))
+    if lead <= 0.0 or not (_is_simpler(first, second) and _is_of_means(first, second)):
+        return 0.0
+    worth = older.together(first, led_by(second, lead)) - log(second.whitened.size)
+    return lead if worth > -max(INDISTINGUISHABLE, unexplained) else 0.0
+
+
+def _is_simpler(first: Fit, second: Fit) -> bool:
+    return _ways_late(second) < _ways_late(first)
+
+
+def _decided_by(first: Fit, second: Fit) -> float:
+    return 1.0 if _is_of_means(first, second) else DECIDING_SHARE
 
 
 def is_beyond_doubt(
@@ -174,8 +196,12 @@ def _ways_late(fit: Fit) -> int:
 
 def _is_of_means(first: Fit, second: Fit) -> bool:
     """Say whether the first robot is later than the second by half an interval of its twists."""
-    half = 0.5 * min(median_interval(stretch.time) for stretch in first.stretches)
+    half = _half_interval(first)
     return abs(_lateness(first) - _lateness(second) - half) < AS_MEANS * half
+
+
+def _half_interval(fit: Fit) -> float:
+    return 0.5 * min(median_interval(stretch.time) for stretch in fit.stretches)
 
 
 def _lateness(fit: Fit) -> float:

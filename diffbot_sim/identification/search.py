@@ -15,7 +15,13 @@ from diffbot_sim.identification.found import Begun, Found
 from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
 from diffbot_sim.identification.later import sets_in_later
 from diffbot_sim.identification.leading import acted_before, lead_of
-from diffbot_sim.identification.older import Ages, Older, is_beyond_doubt, is_taken
+from diffbot_sim.identification.older import (
+    Ages,
+    Older,
+    is_beyond_doubt,
+    is_taken,
+    lead_of_means,
+)
 from diffbot_sim.identification.recordings.checks import check
 from diffbot_sim.identification.recordings.lateness import timely
 from diffbot_sim.identification.recordings.noiseless import (
@@ -105,9 +111,12 @@ def _timed(recordings: Recordings, question: Question) -> Found:
     ages = Ages(first, found.recordings)
     unexplained = 0.0 if found.unexplained is None else found.unexplained.worth
     for older in ages.likely if found.says_something else ():
-        shown = partial(is_taken, older, first, unexplained=unexplained)
-        if shown(taken(older).undoubted.final) or shown(ages.timely(older)):
+        ends = (taken(older).undoubted.final, ages.timely(older))
+        if any(is_taken(older, first, end, unexplained) for end in ends):
             return taken(older)
+        lead = max(lead_of_means(older, first, end, unexplained) for end in ends)
+        if lead > 0.0:
+            return _taken_as_led(taken(older).recordings, lead, question)
     return replace(_unfiltered(found, question), undecided=ages.is_undecided)
 
 
@@ -127,15 +136,21 @@ def _unfiltered(found: Found, question: Question) -> Found:
 
 def _led(found: Found, question: Question) -> Found:
     """Search again where forces act before their stamps, if that leaves less to be told."""
-    lead = lead_of(found.undoubted.final) if found.says_something else 0.0
+    known = not found.says_something or found.lead > 0.0
+    lead = 0.0 if known else lead_of(found.undoubted.final)
     if lead <= 0.0:
         return found
-    question.progress('taking forces for older than their stamps')
-    led = found.recordings.each(partial(acted_before, lead=lead))
-    other = _settled(_search(led, question), question)
+    other = _settled(_taken_as_led(found.recordings, lead, question), question)
     if other.unexplained or not (found.unexplained or other.names <= found.names):
         return found
     return replace(other.timed_like(found), lead=lead)
+
+
+def _taken_as_led(recordings: Recordings, lead: float, question: Question) -> Found:
+    """Search in recordings whose forces are taken to act so long before their stamps [s]."""
+    question.progress('taking forces for older than their stamps')
+    led = recordings.each(partial(acted_before, lead=lead))
+    return replace(_search(led, question), lead=lead)
 
 
 def _begun_later(found: Found, question: Question) -> Found:
