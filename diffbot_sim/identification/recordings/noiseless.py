@@ -17,7 +17,7 @@ from diffbot_sim.records import Array, Run
 # Noise of each wheel's speed that a good odometry has [m/s].
 WHEEL_NOISE = 0.004
 # What has less than this share of it is told by no odometry.
-NOISELESS = 0.1
+NOISELESS = 0.2
 
 
 def odometry_noise(half_separation: float) -> Array:
