@@ -143,7 +143,7 @@ def is_taken(older: Older, first: Fit, second: Fit, unexplained: float) -> bool:
     """
     if older.worth(first, second) > INDISTINGUISHABLE:
         return True
-    as_good = -max(INDISTINGUISHABLE, _decided_by(first, second) * unexplained)
+    as_good = _as_good(first, second, unexplained)
     return _is_simpler(first, second) and older.together(first, second) > as_good
 
 
@@ -158,15 +158,17 @@ def lead_of_means(older: Older, first: Fit, second: Fit, unexplained: float) -> 
     if lead <= 0.0 or not (_is_simpler(first, second) and _is_of_means(first, second)):
         return 0.0
     worth = older.together(first, led_by(second, lead)) - log(second.whitened.size)
-    return lead if worth > -max(INDISTINGUISHABLE, unexplained) else 0.0
+    return lead if worth > _as_good(first, second, unexplained) else 0.0
 
 
 def _is_simpler(first: Fit, second: Fit) -> bool:
     return _ways_late(second) < _ways_late(first)
 
 
-def _decided_by(first: Fit, second: Fit) -> float:
-    return 1.0 if _is_of_means(first, second) else DECIDING_SHARE
+def _as_good(first: Fit, second: Fit, unexplained: float) -> float:
+    """Return the worth beyond which a simpler second fit is as good as the first."""
+    share = 1.0 if _is_of_means(first, second) else DECIDING_SHARE
+    return -max(INDISTINGUISHABLE, share * unexplained)
 
 
 def is_beyond_doubt(

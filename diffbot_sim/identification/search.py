@@ -136,8 +136,9 @@ def _unfiltered(found: Found, question: Question) -> Found:
 
 def _led(found: Found, question: Question) -> Found:
     """Search again where forces act before their stamps, if that leaves less to be told."""
-    known = not found.says_something or found.lead > 0.0
-    lead = 0.0 if known else lead_of(found.undoubted.final)
+    if found.lead > 0.0 or not found.says_something:
+        return found
+    lead = lead_of(found.undoubted.final)
     if lead <= 0.0:
         return found
     other = _settled(_taken_as_led(found.recordings, lead, question), question)

@@ -13,6 +13,9 @@ from numba import types
 
 from diffbot_sim.physics.compiled import compiled
 
+# A force below this share of a limit is what it was.
+FAR_BELOW = 0.25
+
 
 class Stage(IntEnum):
     """Where an effect acts; effects are evaluated in this order.
@@ -138,7 +141,7 @@ def nearly_within(force: float, limit: float, bend: int) -> float:
     of 32 or more is a corner, to the last bit.
     """
     asked = abs(force) / limit
-    if asked <= 0.25:
+    if asked <= FAR_BELOW:
         return force
     if asked >= 4.0:
         return copysign(limit, force)

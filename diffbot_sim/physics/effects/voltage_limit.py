@@ -5,14 +5,12 @@ from dataclasses import dataclass
 from diffbot_sim.parameters import parameter
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.effects.effect import Effect, Excitation
-from diffbot_sim.physics.stages import Motion, Stage, Traction, nearly_within
+from diffbot_sim.physics.stages import FAR_BELOW, Motion, Stage, Traction, nearly_within
 
 # Stall forces over the largest command, and no-load speeds over the largest speed, to start from.
 STALL, NO_LOAD = (1.0, 1.6), (1.05, 1.6)
 # What a motor can give never falls below this share of its stall force.
 LEAST = 1e-3
-# Far below what the motor gives at any speed, a force is what it was.
-FAR_BELOW = 0.25
 # So near to a corner that 0.5 % are missing there: the limit changes no faster than the speed.
 BEND = 128
 
