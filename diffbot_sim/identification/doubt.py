@@ -9,6 +9,7 @@ import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
 from diffbot_sim.identification.free_forms.bases import again
+from diffbot_sim.identification.free_forms.bursts import bursts, is_small_part_of_bursts
 from diffbot_sim.identification.free_forms.dependence import Dependence, realised, worth_of
 from diffbot_sim.identification.free_forms.moments import pushed, standing_out
 from diffbot_sim.identification.free_forms.near_rest import eased
@@ -141,7 +142,14 @@ def _left_over(seen: Seen) -> Objection:
             return kind.name, describe(whole, rest)
     refused = suspected(selection, seen.allowed) if selection.support else None
     name = doubted_beside(refused.worth, selection) if refused else ''
-    return name, describe(found[0], final)
+    return name, _told(found[0], final)
+
+
+def _told(left: Dependence, final: Fit) -> Structure:
+    """Describe what is left by a free form, or by the bursts of which that is a small part."""
+    told = describe(left, final)
+    whole = bursts(final)
+    return whole if whole and is_small_part_of_bursts(told, final) else told
 
 
 def _unfound(seen: Seen) -> Objection:
@@ -153,11 +161,17 @@ def _unfound(seen: Seen) -> Objection:
         left = replace(nearest, description=f'{refused.words}, or {nearest.description}')
         return doubted_beside(refused.worth, selection), left
     if not final.space.kinds:
-        return '', pushed(final) or moves_otherwise(final, seen.held_out)
+        return '', pushed(final) or _nameless(seen)
     # Beside a name that is worth more, what stands out may be its own misses.
     some = standing_out(final)
     name = doubted_beside(some.worth, selection) if some else ''
-    return name, some if name else moves_otherwise(final, seen.held_out)
+    return name, some if name else _nameless(seen)
+
+
+def _nameless(seen: Seen) -> Structure | None:
+    """Return what depends on nothing, and is too much for noise all the same."""
+    final = seen.selection.final
+    return moves_otherwise(final, seen.held_out) or bursts(final)
 
 
 def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence | None:
