@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
-from diffbot_sim.identification.fitting.filtering import unfiltered
+from diffbot_sim.identification.fitting.filtering import told_each_sample, unfiltered
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
@@ -39,7 +39,7 @@ def test_what_was_filtered_comes_back(time_constant: float, seed: int) -> None:
     generator = np.random.default_rng(seed)
     time, twist = np.cumsum(generator.uniform(0.01, 0.1, 200)), generator.normal(size=(200, 2))
     run = Run('drive', Commands(time, twist), Odometry(time, twist, None))
-    back = unfiltered(filtered(run, time_constant), time_constant)
+    back = unfiltered(filtered(run, time_constant), told_each_sample(time_constant, 0.05))
     assert back.odometry.twist == pytest.approx(twist, abs=1e-9)
 
 

@@ -122,16 +122,16 @@ def _timed(recordings: Recordings, question: Question) -> Found:
 
 def _unfiltered(found: Found, question: Question) -> Found:
     """Search again where what is left of a filter may be held against the names found."""
-    time_constant = filter_behind(found.undoubted.final)
-    if time_constant <= 0.0:
+    behind = filter_behind(found.undoubted.final)
+    if behind is None:
         return found
     question.progress('undoing a filter of the twists')
-    undone = found.recordings.each(partial(unfiltered, time_constant=time_constant))
+    undone = found.recordings.each(partial(unfiltered, behind=behind))
     other = _search(undone, question)
     # What is undone must not bring about what was not there.
     if other.unexplained and not found.unexplained:
         return found
-    return replace(other, time_constant=time_constant)
+    return replace(other, time_constant=behind.time_constant)
 
 
 def _led(found: Found, question: Question) -> Found:

@@ -5,11 +5,15 @@ passes the noise: errors that are white before a filter are not after it. Noise 
 something else; then its colour and the lag have time constants of their own.
 """
 
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import product
 from math import exp, inf, log
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import minimize_scalar
+from scipy.special import exprel
 
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
@@ -27,44 +31,95 @@ CLEAR = 10.0
 WITHIN, CLOSELY, LOOKS = 4.0, 0.02, 12
 
 
-def unfiltered(run: Run, time_constant: float) -> Run:
-    """Return a run with its twists as they were before a first-order filter [s]."""
+class Filter(NamedTuple):
+    """A first-order filter of twists: its time constant [s], and how old what it is given is [s].
+
+    A filter that is told each sample is told how the robot moves then. One that is told more often
+    passes a mean over the interval, in which the latest counts most.
+    """
+
+    time_constant: float
+    age: float
+
+
+Kind = Callable[[float, float], Filter]
+
+
+def told_each_sample(time_constant: float, interval: float) -> Filter:
+    """Return a filter that is told what the odometry tells."""
+    return Filter(time_constant, 0.0)
+
+
+def told_often(time_constant: float, interval: float) -> Filter:
+    """Return a filter that is told much more often than the odometry tells."""
+    return Filter(time_constant, time_constant * (1.0 - 1.0 / exprel(interval / time_constant)))
+
+
+KINDS: tuple[Kind, ...] = (told_each_sample, told_often)
+
+
+def unfiltered(run: Run, behind: Filter) -> Run:
+    """Return a run whose twists, and their stamps, are those that a filter was given."""
     seen = run.odometry
-    twist = _undone(seen.time, seen.twist, time_constant)
-    return replace(run, odometry=replace(seen, twist=twist))
+    twist = _undone(seen.time, seen.twist, behind.time_constant)
+    return replace(run, odometry=replace(seen, time=seen.time - behind.age, twist=twist))
 
 
-def filter_behind(fit: Fit) -> float:
-    """Return the time constant [s] of a filter that explains more than an effect that is late.
+def filter_behind(fit: Fit) -> Filter | None:
+    """Return a filter that explains more than an effect that is late.
 
-    0 where no effect is late, nothing speaks for a filter, noise of a colour of its own explains
-    more, or twists come in steps as coarse as the errors: those were made behind any filter.
+    None where no effect is late, nothing speaks for a filter, noise of a colour of its own
+    explains more, or twists come in steps as coarse as the errors: those were made behind any
+    filter.
     """
     if np.any(resolution(np.concatenate([s.twist for s in fit.stretches])) > fit.sigma):
-        return 0.0
+        return None
     values = fit.space.values(fit.u)
-    late = [(values.get(name, 0.0), e) for name, e in zip(LATE, LATE_EFFECTS, strict=True)]
-    looks = [(_cost_before(fit, e, time), time, e) for time, e in late if time > 0.0]
-    cost, near, effect = min(looks, default=(inf, 0.0, ''))
-    if cost > _cost(fit) - CLEAR:
-        return 0.0
-    found = minimize_scalar(
-        lambda at: _cost_before(fit, effect, exp(at)),
-        bounds=(log(near / WITHIN), log(near * WITHIN)),
-        method='bounded',
-        options={'xatol': CLOSELY, 'maxiter': LOOKS},
-    )
-    return exp(found.x) if found.fun < _cost_of_colour(fit) + CLEAR else 0.0
+    late = [(e, values.get(name, 0.0)) for name, e in zip(LATE, LATE_EFFECTS, strict=True)]
+    looks = [_Look(fit, e, near, kind) for (e, near), kind in product(late, KINDS) if near > 0.0]
+    least = _cost(fit) - CLEAR
+    found = [look.best() for look in looks if look.cost(look.near) <= least]
+    cost, behind = min(found, default=(inf, None))
+    return behind if cost < _cost_of_colour(fit) + CLEAR else None
 
 
-def _cost_before(fit: Fit, effect: str, time_constant: float) -> float:
+@dataclass(frozen=True)
+class _Look:
+    """A kind of filter that may take the place of an effect; near [s]: how late that is."""
+
+    fit: Fit
+    effect: str
+    near: float
+    kind: Kind
+
+    def filter(self, time_constant: float) -> Filter:
+        return self.kind(time_constant, self.fit.stretches[0].interval)
+
+    def cost(self, time_constant: float) -> float:
+        """Return -2 log-likelihood with a filter of this time constant."""
+        return _cost_before(self.fit, self.effect, self.filter(time_constant))
+
+    def best(self) -> tuple[float, Filter]:
+        """Return the lowest cost, and the filter that has it."""
+        found = minimize_scalar(
+            lambda at: self.cost(exp(at)),
+            bounds=(log(self.near / WITHIN), log(self.near * WITHIN)),
+            method='bounded',
+            options={'xatol': CLOSELY, 'maxiter': LOOKS},
+        )
+        return float(found.fun), self.filter(exp(found.x))
+
+
+def _cost_before(fit: Fit, effect: str, behind: Filter) -> float:
     """Return -2 log-likelihood where a filter takes the place of an effect."""
-    undone = tuple(_before(stretch, time_constant) for stretch in fit.stretches)
+    undone = tuple(_before(stretch, behind) for stretch in fit.stretches)
     space = Space(fit.space.declared, tuple(k for k in fit.space.kinds if k.name != effect))
     start = np.delete(fit.u, fit.space.places(effect))
     stretches = restarted(space.model(start), undone, MAX_STEP)
     before = fit_prediction(space, stretches, start, FIRST_GAINS)
-    shares = [_passed(stretch.time, time_constant)[stretch.used[1:] > 0] for stretch in stretches]
+    shares = [
+        _passed(stretch.time, behind.time_constant)[stretch.used[1:] > 0] for stretch in stretches
+    ]
     return _cost(before) + 4.0 * float(np.log(np.concatenate(shares)).sum())
 
 
@@ -78,8 +133,9 @@ def _cost(fit: Fit) -> float:
     return len(fit.whitened) * float(np.log(unforeseen(fit.whitened) * fit.sigma**2).sum())
 
 
-def _before(stretch: Stretch, time_constant: float) -> Stretch:
-    return replace(stretch, twist=_undone(stretch.time, stretch.twist, time_constant))
+def _before(stretch: Stretch, behind: Filter) -> Stretch:
+    twist = _undone(stretch.time, stretch.twist, behind.time_constant)
+    return replace(stretch, time=stretch.time - behind.age, twist=twist)
 
 
 def _undone(time: Array, twist: Array, time_constant: float) -> Array:
