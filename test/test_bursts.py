@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
-from fits import acted_otherwise, fitted
+from fits import ROUGH, acted_otherwise, fitted
 
 from diffbot_sim.control.rehearsal import Surroundings
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.free_forms.bursts import bursts
+from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.records import Commands
@@ -33,6 +34,16 @@ def test_drive_that_cuts_out_is_unexplained(roughness: float) -> None:
     assert answer.verdict == 'unexplained'
     assert answer.unexplained is not None
     assert 'comes in bursts' in answer.unexplained.description
+
+
+def test_brake_that_lets_go_late_is_not_allowed_for_as_friction() -> None:
+    pushes, into = np.divmod(TIME, 2.25)
+    size = RANDOM.uniform(5.0, 10.0, (27, 2))[pushes.astype(int)]
+    stop_and_go = size * np.select([into < 0.6, into < 1.0], [1.0, -1.0], 0.0)[:, None]
+    held = stop_and_go * (into > 0.3)[:, None]
+    run = acted_otherwise(Commands(TIME, stop_and_go), held, ROUGH)
+    eased_fit, _ = eased(*fitted(run))
+    assert not np.any(eased_fit.stretches[0].pushes)
 
 
 def test_bursts_are_told_over_time_and_as_what_they_are_like() -> None:

@@ -51,6 +51,18 @@ def test_filtered_twists_do_not_make_a_robot_late() -> None:
     assert timing.lateness == pytest.approx(0.06, rel=0.03)
 
 
+def test_filter_that_is_told_often_does_not_make_a_robot_late() -> None:
+    drive = random_forces(3, 60.0, -9.0, 11.0)
+    often = Commands(
+        np.arange(0.0, 60.0, 0.005), np.repeat(drive.force, 4, axis=0)[: round(60.0 / 0.005)]
+    )
+    fast = filtered(rehearse(Model(), often, Surroundings(0.008, 0.016), 3), 0.03)
+    seen = Odometry(fast.odometry.time[::4], fast.odometry.twist[::4], None)
+    answer = identify([replace(fast, commands=drive, odometry=seen)], Model(), kinds=LATENESS)
+    assert answer.verdict == 'nothing_missing'
+    assert answer.timings[0].lateness == pytest.approx(0.03, rel=0.15)
+
+
 def test_lag_of_the_actuators_is_told_from_that_of_a_filter() -> None:
     run = driven((ActuatorLag(0.15),), Surroundings())
     answer = identify([filtered(run, 0.05)], Model(), kinds=LATENESS)

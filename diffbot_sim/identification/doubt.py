@@ -44,12 +44,14 @@ ALLOWED_SHARE = 0.5
 class Seen(NamedTuple):
     """A selection, and held-out data, as they are looked at.
 
-    near_rest: by how much a friction near rest that is allowed for lowers the deviance.
+    near_rest: by how much a friction near rest that is allowed for lowers the deviance; strict:
+    the final fit before that.
     """
 
     selection: Selection
     held_out: Sequence[Stretch]
     near_rest: float = 0.0
+    strict: Fit | None = None
 
     @property
     def allowed(self) -> float:
@@ -84,7 +86,7 @@ def with_friction_eased(selection: Selection, held_out: Sequence[Stretch]) -> Se
     base = refitted(selection.base) if len(without) > 1 else selection.base
     seen = replace(selection, base=base, final=final, without=without)
     gained = selection.final.deviance(final.sigma) - final.deviance(final.sigma)
-    return Seen(seen, held, gained)
+    return Seen(seen, held, gained, selection.final)
 
 
 def doubt(selection: Selection, held_out: Sequence[Stretch], look: Look = Seen) -> Doubted:
@@ -171,7 +173,9 @@ def _unfound(seen: Seen) -> Objection:
 def _nameless(seen: Seen) -> Structure | None:
     """Return what depends on nothing, and is too much for noise all the same."""
     final = seen.selection.final
-    return moves_otherwise(final, seen.held_out) or bursts(final)
+    # What is left of friction near rest that is allowed for comes in bursts, too.
+    made_by_that = seen.strict is not None and bursts(seen.strict) is None
+    return moves_otherwise(final, seen.held_out) or (None if made_by_that else bursts(final))
 
 
 def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence | None:

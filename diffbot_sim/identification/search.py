@@ -128,8 +128,8 @@ def _unfiltered(found: Found, question: Question) -> Found:
     question.progress('undoing a filter of the twists')
     undone = found.recordings.each(partial(unfiltered, behind=behind))
     other = _search(undone, question)
-    # What is undone must not bring about what was not there.
-    if other.unexplained and not found.unexplained:
+    # What is undone must not bring about what was not there, and speaks as loudly.
+    if other.unexplained and not found.unexplained and other.unexplained.worth > behind.worth:
         return found
     return replace(other, time_constant=behind.time_constant)
 

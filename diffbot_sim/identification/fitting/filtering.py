@@ -36,10 +36,12 @@ class Filter(NamedTuple):
 
     A filter that is told each sample is told how the robot moves then. One that is told more often
     passes a mean over the interval, in which the latest counts most.
+    worth: by how much it lowers -2 log-likelihood in place of an effect.
     """
 
     time_constant: float
     age: float
+    worth: float = 0.0
 
 
 Kind = Callable[[float, float], Filter]
@@ -77,10 +79,12 @@ def filter_behind(fit: Fit) -> Filter | None:
     values = fit.space.values(fit.u)
     late = [(e, values.get(name, 0.0)) for name, e in zip(LATE, LATE_EFFECTS, strict=True)]
     looks = [_Look(fit, e, near, kind) for (e, near), kind in product(late, KINDS) if near > 0.0]
-    least = _cost(fit) - CLEAR
-    found = [look.best() for look in looks if look.cost(look.near) <= least]
-    cost, behind = min(found, default=(inf, None))
-    return behind if cost < _cost_of_colour(fit) + CLEAR else None
+    cost = _cost(fit)
+    found = [look.best() for look in looks if look.cost(look.near) <= cost - CLEAR]
+    least, behind = min(found, default=(inf, None))
+    if behind is None or least >= _cost_of_colour(fit) + CLEAR:
+        return None
+    return behind._replace(worth=cost - least)
 
 
 @dataclass(frozen=True)
