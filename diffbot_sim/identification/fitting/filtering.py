@@ -70,6 +70,7 @@ def unfiltered(run: Run, behind: Filter) -> Run:
 def filter_behind(fit: Fit) -> Filter | None:
     """Return a filter that explains more than an effect that is late.
 
+    It need explain only as much as one that is late by less than an interval of the odometry.
     None where no effect is late, nothing speaks for a filter, noise of a colour of its own
     explains more, or twists come in steps as coarse as the errors: those were made behind any
     filter.
@@ -80,7 +81,7 @@ def filter_behind(fit: Fit) -> Filter | None:
     late = [(e, values.get(name, 0.0)) for name, e in zip(LATE, LATE_EFFECTS, strict=True)]
     looks = [_Look(fit, e, near, kind) for (e, near), kind in product(late, KINDS) if near > 0.0]
     cost = _cost(fit)
-    found = [look.best() for look in looks if look.cost(look.near) <= cost - CLEAR]
+    found = [look.best() for look in looks if look.cost(look.near) <= cost + look.allowed]
     least, behind = min(found, default=(inf, None))
     if behind is None or least >= _cost_of_colour(fit) + CLEAR:
         return None
@@ -95,6 +96,11 @@ class _Look:
     effect: str
     near: float
     kind: Kind
+
+    @property
+    def allowed(self) -> float:
+        """How much higher the cost may be: what is late by less than an interval is odometry."""
+        return CLEAR if self.near < self.fit.stretches[0].interval else -CLEAR
 
     def filter(self, time_constant: float) -> Filter:
         return self.kind(time_constant, self.fit.stretches[0].interval)
