@@ -54,7 +54,8 @@ def told_each_sample(time_constant: float, interval: float) -> Filter:
 
 def told_often(time_constant: float, interval: float) -> Filter:
     """Return a filter that is told much more often than the odometry tells."""
-    return Filter(time_constant, time_constant * (1.0 - 1.0 / exprel(interval / time_constant)))
+    share = 1.0 - 1.0 / float(exprel(interval / time_constant))
+    return Filter(time_constant, share * time_constant)
 
 
 KINDS: tuple[Kind, ...] = (told_each_sample, told_often)
