@@ -33,7 +33,9 @@ def bursts(fit: Fit) -> Structure | None:
     most = max(seen, key=lambda view: _rms(_followed(view)))
     right, left = standing_out.T
     axis = int(_rms(right - left) > _rms(right + left))
-    return force_over_time(fit, most.stretch, axis, _words(standing_out, commanded))
+    told = force_over_time(fit, most.stretch, axis, _words(standing_out, commanded))
+    # Of a model that never moves no force is felt, though its noise model follows the robot.
+    return told if len(told.knots) > 0 else None
 
 
 def is_small_part_of_bursts(told: Structure, fit: Fit) -> bool:

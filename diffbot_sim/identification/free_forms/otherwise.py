@@ -73,7 +73,7 @@ def force_over_time(fit: Fit, stretch: Stretch, axis: int, words: str) -> Struct
     following = replace(fit, stretches=(stretch,), gains=FOLLOWING)
     (view,), (response,) = views(following, following.stretches), responses(following)
     knots, force, error = over_time(view, response, axis)
-    strength = float(np.sqrt(np.mean(force**2)))
+    strength = float(np.sqrt(np.mean(force**2))) if force.size else 0.0
     kind, unit = FORCES[BODY[axis]]
     return Structure(
         description=f'a {kind} of {strength:.3g} {unit} rms {words}',
