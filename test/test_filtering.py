@@ -53,9 +53,7 @@ def test_filtered_twists_do_not_make_a_robot_late() -> None:
 
 def test_filter_that_is_told_often_does_not_make_a_robot_late() -> None:
     drive = random_forces(3, 60.0, -9.0, 11.0)
-    often = Commands(
-        np.arange(0.0, 60.0, 0.005), np.repeat(drive.force, 4, axis=0)[: round(60.0 / 0.005)]
-    )
+    often = Commands(np.arange(4 * len(drive.time)) * 0.005, np.repeat(drive.force, 4, axis=0))
     fast = filtered(rehearse(Model(), often, Surroundings(0.008, 0.016), 3), 0.03)
     seen = Odometry(fast.odometry.time[::4], fast.odometry.twist[::4], None)
     answer = identify([replace(fast, commands=drive, odometry=seen)], Model(), kinds=LATENESS)

@@ -150,8 +150,9 @@ def _left_over(seen: Seen) -> Objection:
 def _told(left: Dependence, final: Fit) -> Structure:
     """Describe what is left by a free form, or by the bursts of which that is a small part."""
     told = describe(left, final)
-    whole = bursts(final)
-    return whole if whole and is_small_part_of_bursts(told, final) else told
+    if is_small_part_of_bursts(told, final):
+        return bursts(final) or told
+    return told
 
 
 def _unfound(seen: Seen) -> Objection:
@@ -172,10 +173,11 @@ def _unfound(seen: Seen) -> Objection:
 
 def _nameless(seen: Seen) -> Structure | None:
     """Return what depends on nothing, and is too much for noise all the same."""
-    final = seen.selection.final
+    otherwise = moves_otherwise(seen.selection.final, seen.held_out)
     # What is left of friction near rest that is allowed for comes in bursts, too.
-    made_by_that = seen.strict is not None and bursts(seen.strict) is None
-    return moves_otherwise(final, seen.held_out) or (None if made_by_that else bursts(final))
+    if otherwise or (seen.strict is not None and bursts(seen.strict) is None):
+        return otherwise
+    return bursts(seen.selection.final)
 
 
 def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence | None:
