@@ -107,7 +107,7 @@ class Structure:
 
 def force(model: Model, points: Points) -> Array:
     """Return the force that each side needs to go on as it goes [N], shape (n, 2)."""
-    evaluate = compose(tuple(type(effect) for effect in model.effects)).laws
+    evaluate = compose(model.kinds).laws
     params, b = model.pack(), model.robot.half_separation
     result = np.empty_like(points.speed)
     for row, (right, left) in enumerate(np.where(abs(points.speed) < STANDING, 0, points.speed)):

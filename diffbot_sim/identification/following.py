@@ -9,6 +9,7 @@ from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.free_forms.otherwise import force_over_time
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
+from diffbot_sim.identification.statistics.norms import norm
 
 # A simulation whose errors are no less than this share of the motion explains none of it.
 NONE = 0.9
@@ -39,5 +40,5 @@ def explains(fit: Fit, stretches: Sequence[Stretch]) -> bool:
     motion = np.concatenate([s.twist[counts] for s, counts in zip(stretches, later, strict=True)])
     if not motion.size:
         return True
-    left, all_of_it = (np.sqrt(np.mean(x**2, axis=0)) for x in (errors, motion))
+    left, all_of_it = (norm(x).pair for x in (errors, motion))
     return bool(np.any(left < NONE * all_of_it))

@@ -37,6 +37,11 @@ class Model:
         return replace(self, effects=tuple(e for e in self.effects if e.name != name))
 
     @property
+    def kinds(self) -> tuple[type[Effect], ...]:
+        """The laws of its effects, in order of evaluation."""
+        return tuple(type(effect) for effect in self.effects)
+
+    @property
     def half_separation(self) -> float:
         """Distance b from the middle to a wheel [m], as effects let it act."""
         return self.robot.half_separation * prod(effect.track for effect in self.effects)

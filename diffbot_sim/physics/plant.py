@@ -128,7 +128,7 @@ class Plant:
 
     def _install(self, model: Model) -> None:
         self._model = model
-        self._functions = compose(tuple(type(effect) for effect in model.effects))
+        self._functions = compose(model.kinds)
         self._params = model.pack()
         self._delay, self._moments = delay_of(model), moments_of(model)
         self._coming: deque[tuple[float, tuple[float, float]]] = deque()

@@ -38,7 +38,7 @@ def simulate(
     origin). Each command is held until the next; before the first one the force is 0.
     Steps are at most max_step [s] long, cut at stamps and command changes.
     """
-    functions = compose(tuple(type(effect) for effect in model.effects))
+    functions = compose(model.kinds)
     commands = scheduled(model, commands)
     z = initial_vector(model, start or State())
     out = np.empty((len(times), OUTPUT_SIZE))
@@ -89,7 +89,7 @@ def initial_states(model: Model, commands: Commands, time: float) -> Array:
     first = Traction(*map(float, commands.force[0])) if known else Traction(0.0, 0.0)
     states = np.array([s for effect in model.effects for s in effect.initial_state(first)])
     if known and len(states) > 0:
-        settle = compose(tuple(type(effect) for effect in model.effects)).settle
+        settle = compose(model.kinds).settle
         stamps, force = map(np.ascontiguousarray, (commands.time, commands.force))
         _settle_through(settle, model.pack(), states, np.zeros(STATE_SIZE), stamps, force, time)
     return states

@@ -69,7 +69,7 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
     states = initial_states(model, commands, float(stretch.time[0]))
     out, snapshots = np.zeros((count, 6)), np.empty((count, snapshot_size(states)))
     _predict(
-        *compose(tuple(type(effect) for effect in model.effects)),
+        *compose(model.kinds),
         model.pack(),
         states,
         initial_vector(model, stretch.start),

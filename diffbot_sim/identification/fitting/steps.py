@@ -50,7 +50,7 @@ class Steps:
         stretch = self._stretch
         commands, out = scheduled(model, stretch.run.commands), np.zeros((len(stretch.time), 4))
         _take(
-            *compose(tuple(type(effect) for effect in model.effects)),
+            *compose(model.kinds),
             model.pack(),
             np.ascontiguousarray(commands.time),
             np.ascontiguousarray(commands.force),

@@ -10,6 +10,7 @@ from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.views import View, views
 from diffbot_sim.identification.free_forms.variables import TOLD, VARIABLES
 from diffbot_sim.identification.recordings.stretches import Stretch, largest_command
+from diffbot_sim.identification.statistics.norms import rms
 from diffbot_sim.records import Array
 
 # Unit of the amounts: this share of the largest command.
@@ -75,7 +76,7 @@ class Basis:
     def strength(self, amounts: Array) -> float:
         """Return the rms of the force [N], or torque [N·m], that amounts stand for."""
         force = np.concatenate([np.einsum('kqc,q->kc', v, amounts) for v in self.values])
-        return float(self.scale * np.sqrt(np.mean(force**2)))
+        return self.scale * rms(force)
 
     @property
     def scale(self) -> float:

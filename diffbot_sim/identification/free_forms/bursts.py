@@ -8,6 +8,7 @@ from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.views import View, views
 from diffbot_sim.identification.free_forms.otherwise import force_over_time
 from diffbot_sim.identification.result import Structure
+from diffbot_sim.identification.statistics.norms import rms
 from diffbot_sim.records import Array
 
 # What exceeds its rms so many times over stands out.
@@ -28,11 +29,11 @@ def bursts(fit: Fit) -> Structure | None:
     """
     seen = views(fit, fit.stretches)
     standing_out, commanded = _standing_out(seen), np.concatenate([view.force for view in seen])
-    if _rms(standing_out) <= MUCH * _rms(commanded):
+    if rms(standing_out) <= MUCH * rms(commanded):
         return None
-    most = max(seen, key=lambda view: _rms(_followed(view)))
+    most = max(seen, key=lambda view: rms(_followed(view)))
     right, left = standing_out.T
-    axis = int(_rms(right - left) > _rms(right + left))
+    axis = int(rms(right - left) > rms(right + left))
     told = force_over_time(fit, most.stretch, axis, _words(standing_out, commanded))
     # Of a model that never moves no force is felt, though its noise model follows the robot.
     return told if len(told.knots) > 0 else None
@@ -42,13 +43,13 @@ def is_small_part_of_bursts(told: Structure, fit: Fit) -> bool:
     """Say whether a structure is a small part of what stands out of the force that is followed."""
     at_wheel = {'v': 0.5, 'omega': 0.5 / fit.model.half_separation}.get(told.axis, 1.0)
     standing_out = _standing_out(views(fit, fit.stretches))
-    return at_wheel * told.strength < SMALL_PART * _rms(standing_out)
+    return at_wheel * told.strength < SMALL_PART * rms(standing_out)
 
 
 def _standing_out(seen: Sequence[View]) -> Array:
     """Return what is followed where it stands out, 0 elsewhere, shape (k, 2)."""
     force = np.concatenate([_followed(view) for view in seen])
-    return np.where(np.abs(force) > OUTSTANDING * _rms(force), force, 0.0)
+    return np.where(np.abs(force) > OUTSTANDING * rms(force), force, 0.0)
 
 
 def _followed(view: View) -> Array:
@@ -63,7 +64,3 @@ def _words(standing_out: Array, commanded: Array) -> str:
     is_taken = np.sum(taken**2) > TAKEN * np.sum(standing_out**2)
     like = ', as if the drives gave less than commanded for moments,' if is_taken else ''
     return f'that comes in bursts{like} and that no effect of the library accounts for'
-
-
-def _rms(force: Array) -> float:
-    return float(np.sqrt(np.mean(force**2)))

@@ -15,6 +15,7 @@ from diffbot_sim.identification.free_forms.structure import FORCES
 from diffbot_sim.identification.free_forms.variable import BODY
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.statistics.guards import LIKELIHOOD_LEVEL
+from diffbot_sim.identification.statistics.norms import rms
 from diffbot_sim.identification.statistics.robust import NORMAL, scale_of
 from diffbot_sim.records import Array
 
@@ -180,7 +181,7 @@ def _described(fit: Fit, moments: list[Moment]) -> Structure:
         description=f'{what} at {said} that no effect of the library accounts for',
         axis=BODY[surest.axis],
         variable='time_of_push',
-        strength=float(np.sqrt(np.mean(force**2))),
+        strength=rms(force),
         p_value=surest.p_value,
         knots=knots,
         force=force,

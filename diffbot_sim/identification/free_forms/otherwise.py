@@ -20,6 +20,7 @@ from diffbot_sim.identification.free_forms.variable import BODY
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
+from diffbot_sim.identification.statistics.norms import rms
 from diffbot_sim.identification.statistics.robust import huber
 from diffbot_sim.records import Array
 
@@ -73,7 +74,7 @@ def force_over_time(fit: Fit, stretch: Stretch, axis: int, words: str) -> Struct
     following = replace(fit, stretches=(stretch,), gains=FOLLOWING)
     (view,), (response,) = views(following, following.stretches), responses(following)
     knots, force, error = over_time(view, response, axis)
-    strength = float(np.sqrt(np.mean(force**2))) if force.size else 0.0
+    strength = rms(force)
     kind, unit = FORCES[BODY[axis]]
     return Structure(
         description=f'a {kind} of {strength:.3g} {unit} rms {words}',

@@ -18,7 +18,7 @@ from diffbot_sim.identification.recordings.smoothing import smoothed_over
 from diffbot_sim.identification.recordings.stretches import averaged
 from diffbot_sim.identification.recordings.way import path_of
 from diffbot_sim.identification.result import Timing
-from diffbot_sim.identification.statistics.norms import white_noise
+from diffbot_sim.identification.statistics.norms import norm, white_noise
 from diffbot_sim.records import Array, Odometry, Run
 
 # What makes a robot late: parameters whose sum is how late it is [s].
@@ -60,7 +60,7 @@ def timely(run: Run) -> Run:
     for group in range(1, longest + 1):
         taken = as_pose_moves(averaged(run, group))
         twist = taken.odometry.twist
-        if np.all(white_noise(twist) < CLEAR * np.sqrt(np.mean(twist**2, axis=0))):
+        if np.all(white_noise(twist) < CLEAR * norm(twist).pair):
             break
     return taken
 

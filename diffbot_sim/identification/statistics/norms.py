@@ -21,6 +21,11 @@ def norm(errors: Array) -> ErrorNorm:
     return ErrorNorm.of(np.sqrt(np.mean(errors**2, axis=0)))
 
 
+def rms(values: Array) -> float:
+    """Return the root mean square of all values, 0 of none."""
+    return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
+
+
 def noise_floor(twists: Sequence[Array], models: Sequence[Array]) -> ErrorNorm:
     """Return what measurement noise leaves of a perfect model.
 
