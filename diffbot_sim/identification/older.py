@@ -79,7 +79,7 @@ class Ages:
         So it may where the very structure that was found fits better then; and where it may make
         needless that the robot is late by less than an interval, or in two ways at once.
         """
-        interval = min(median_interval(run.odometry.time) for run in self._recordings.learned)
+        interval = min(median_interval(run.odometry.time) for run in self._recordings.kept)
         needless = 0.0 < _lateness(self._final) < interval
         fits = self._less_late if needless else self._again
         least = -INDISTINGUISHABLE if _ways_late(self._final) > 1 else INDISTINGUISHABLE
@@ -120,7 +120,7 @@ class Ages:
         return {
             older: on_recordings(self._final, self._recordings.each(older.taken))
             for older in OLDER
-            if all(pose_allows_lag(run, older.of) for run in self._recordings.learned)
+            if all(pose_allows_lag(run, older.of) for run in self._recordings.kept)
         }
 
     @cached_property

@@ -177,18 +177,19 @@ class RunCheck:
 
     error: free-running over the whole run, with parameters learned from the other runs alone;
     noise_floor: what white noise leaves of it. differences: beyond chance, the surest first; none
-    where the run agrees.
+    where the run agrees. set_aside: whether nothing was learned from it, since it does not.
     """
 
     name: str
     error: ErrorNorm
     noise_floor: ErrorNorm
     differences: tuple[Difference, ...] = ()
+    set_aside: bool = False
 
     @property
     def agrees(self) -> bool:
         """Whether the other runs could be of the same robot in the same condition."""
-        return not self.differences
+        return not (self.differences or self.set_aside)
 
 
 @dataclass(frozen=True)

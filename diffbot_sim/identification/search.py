@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
+from diffbot_sim.errors import DataError
+from diffbot_sim.identification.conclusions.agreement import odd_runs
 from diffbot_sim.identification.doubt import doubt, with_friction_eased
 from diffbot_sim.identification.fitting.calibration import calibrate, simulation_error
 from diffbot_sim.identification.fitting.coordinates import Space
@@ -36,6 +38,7 @@ from diffbot_sim.identification.simulating import is_integrators, without_worsen
 from diffbot_sim.identification.suspicion import SUSPICIOUS
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.model import Model
+from diffbot_sim.records import Run
 
 
 @dataclass(frozen=True)
@@ -68,6 +71,35 @@ def search(
 
 
 def _answered(recordings: Recordings, question: Question) -> Found:
+    """Search in all runs, and without those that disagree where that leaves less to be told.
+
+    Each run that is set aside must have nothing unexplained, and no effect of its own, either:
+    what shows in some runs alone is no reason to leave these out.
+    """
+    found = _asked(recordings, question)
+    odd = (
+        odd_runs(found.selection.final, found.recordings.learned) if found.says_something else None
+    )
+    if not odd:
+        return found
+    question.progress('setting aside what disagrees with the other runs')
+    others = _asked(replace(recordings, aside=odd), question)
+    if others.unexplained or not (found.unexplained or others.names < found.names):
+        return found
+    alone = (_alone(run, question) for i, run in enumerate(recordings.learned) if i in odd)
+    return others if all(one and one.names <= others.names for one in alone) else found
+
+
+def _alone(run: Run, question: Question) -> Found | None:
+    """Search in one run; return nothing where it is too short, or leaves something unexplained."""
+    try:
+        found = _asked(Recordings((run,), ()), question)
+    except DataError:
+        return None
+    return None if found.unexplained else found
+
+
+def _asked(recordings: Recordings, question: Question) -> Found:
     """Search in recordings, and ask all that may be wrong with their stamps and their friction."""
     found = _settled(_timed(recordings, question), question)
     return without_worsening(_begun_later(_led(found, question), question))

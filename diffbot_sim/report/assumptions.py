@@ -57,7 +57,9 @@ def _decisions() -> list[str]:
         f'(p < {guards.LIKELIHOOD_LEVEL:g}, corrected for the number of effects tried), the '
         'same against serial correlation, and a gain on data that it was not fitted to (neither '
         f'p above {guards.EITHER_LEVEL:g}, both together p < {guards.BOTH_LEVEL:.2g}).',
-        'Effects were chosen with all fitted runs. A run disagrees when a parameter differs from '
+        'Effects were chosen with all fitted runs, but for those set aside: of these each by '
+        'itself, and all others together, leave nothing unexplained, but all together do. '
+        'A run disagrees when a parameter differs from '
         f'that of the others (p < {agreement.LEVEL:g}, corrected for runs and parameters) by more '
         f'than {100 * agreement.IMMATERIAL:g} %.',
     ]

@@ -64,6 +64,7 @@ class RunRow:
 
     name: str
     agrees: bool
+    set_aside: bool
     v: str
     omega: str
     why: str
@@ -78,7 +79,7 @@ def run_row(run: RunCheck) -> RunRow:
             (run.error.omega_rmse, run.noise_floor.omega_rmse),
         )
     )
-    return RunRow(run.name, run.agrees, v, omega, why(run))
+    return RunRow(run.name, run.agrees, run.set_aside, v, omega, why(run))
 
 
 def effect_row(effect: FoundEffect) -> EffectRow:

@@ -40,6 +40,11 @@ TIMINGS = {
     '{} older than their stamps.',
 }
 
+DISAGREES = 'disagrees with the other runs'
+SET_ASIDE = (
+    'is of another robot or another condition than the other runs, which agree, and was set aside'
+)
+
 BIAS = (
     'the odometry turns by {} while the robot stands, as a gyro with a bias does; that was taken '
     'off its turn rates.'
@@ -147,7 +152,7 @@ def disagreements(runs: Sequence[RunCheck]) -> list[str]:
     odd = [run for run in runs if not run.agrees]
     if len(runs) == 2 and odd:
         return [f'{runs[0].name} and {runs[1].name} disagree. {runs[0].name}: {why(runs[0])}.']
-    return [f'{run.name} disagrees with the other runs: {why(run)}.' for run in odd]
+    return [f'{run.name} {SET_ASIDE if run.set_aside else DISAGREES}: {why(run)}.' for run in odd]
 
 
 def of_recordings(result: Identification) -> list[str]:
@@ -170,6 +175,8 @@ def _milliseconds(it: Timing) -> str:
 
 def why(run: RunCheck) -> str:
     """Say in which parameters a run differs, the surest three; empty where it agrees."""
+    if run.set_aside and not run.differences:
+        return 'beside them something would be missing'
     return '; '.join(
         f'{it.name} {estimate_text(it.here)}, elsewhere {estimate_text(it.others)}'
         for it in run.differences[:3]

@@ -60,25 +60,38 @@ class Estimated(NamedTuple):
     covariance: Array
 
 
-def agreement(joint: Fit, runs: Sequence[Run]) -> tuple[RunCheck, ...]:
+def agreement(
+    joint: Fit, runs: Sequence[Run], aside: frozenset[int] = frozenset()
+) -> tuple[RunCheck, ...]:
     """Judge each run by the others; nothing where there is only one.
 
-    joint: the final structure, fitted to the runs by one-step prediction.
+    joint: the final structure, fitted to the runs by one-step prediction, but for those set aside.
     """
     if len(runs) < 2:
         return ()
-    fits = [alone(joint, s) for s in restarted(joint.model, whole(runs), MAX_STEP)]
-    shares = [share_of(fit) for fit in fits]
-    aside = disagreeing(joint, fits, shares)
-    return tuple(
+    fits, shares = _each_alone(joint, runs)
+    odd = disagreeing(joint, fits, shares, aside)
+    checks = (
         _check(
             fit,
             estimate_of(joint, shares[index]),
-            estimate_of(joint, total(shares, _others(len(runs), index, aside))),
+            estimate_of(joint, total(shares, _others(len(runs), index, odd))),
             len(runs),
         )
         for index, fit in enumerate(fits)
     )
+    return tuple(replace(check, set_aside=i in aside) for i, check in enumerate(checks))
+
+
+def odd_runs(joint: Fit, runs: Sequence[Run]) -> frozenset[int]:
+    """Return which runs disagree with all others, as long as these are more."""
+    odd = disagreeing(joint, *_each_alone(joint, runs))
+    return odd if 2 * len(odd) < len(runs) else frozenset()
+
+
+def _each_alone(joint: Fit, runs: Sequence[Run]) -> tuple[list[Fit], list[Share]]:
+    fits = [alone(joint, s) for s in restarted(joint.model, whole(runs), MAX_STEP)]
+    return fits, [share_of(fit) for fit in fits]
 
 
 def alone(joint: Fit, stretch: Stretch) -> Fit:
@@ -108,14 +121,16 @@ def estimate_of(joint: Fit, share: Share) -> Estimated:
     return Estimated(u, bread @ share.spread @ bread)
 
 
-def disagreeing(joint: Fit, fits: Sequence[Fit], shares: Sequence[Share]) -> frozenset[int]:
-    """Return which runs disagree, set aside one by one, the worst first.
+def disagreeing(
+    joint: Fit, fits: Sequence[Fit], shares: Sequence[Share], known: frozenset[int] = frozenset()
+) -> frozenset[int]:
+    """Return which runs disagree, set aside one by one, the worst first, after those known to.
 
     So a run that spoils what the others say does not make them look wrong. Of two that disagree
     with each other nobody can say which is wrong: both are returned.
     """
     everyone = frozenset(range(len(fits)))
-    left = everyone
+    left = everyone - known
     while len(left) > 1:
         chance = {}
         for index in sorted(left):

@@ -18,25 +18,32 @@ from diffbot_sim.records import Run
 class Recordings:
     """Runs to learn from; runs to validate with, or none: then parts of the first are held out.
 
-    share: what is fitted of each run then.
+    share: what is fitted of each run then; aside: which of those to learn from are set aside,
+    since they disagree with the others: nothing is learned from these, nor judged by them.
     """
 
     learned: tuple[Run, ...]
     validate: tuple[Run, ...]
     share: float = FITTED_SHARE
+    aside: frozenset[int] = frozenset()
+
+    @property
+    def kept(self) -> tuple[Run, ...]:
+        """The runs that are learned from."""
+        return tuple(run for i, run in enumerate(self.learned) if i not in self.aside)
 
     @property
     def divided(self) -> tuple[tuple[Stretch, ...], tuple[Stretch, ...]]:
         """The stretches that are fitted, and those that are held out."""
         if self.validate:
-            return whole(self.learned), whole(self.validate)
-        return split(self.learned, self.share)
+            return whole(self.kept), whole(self.validate)
+        return split(self.kept, self.share)
 
     @property
     def allow_less_held_out(self) -> bool:
         """Whether less of each run would be enough to judge by."""
         try:
-            split(self.learned, LARGER_SHARE)
+            split(self.kept, LARGER_SHARE)
         except DataError:
             return False
         return True
@@ -48,7 +55,7 @@ class Recordings:
 
     @property
     def all(self) -> tuple[Run, ...]:
-        """All runs."""
+        """All runs, those set aside among them."""
         return self.learned + self.validate
 
     def each(self, change: Callable[[Run], Run]) -> 'Recordings':
