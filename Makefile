@@ -11,10 +11,12 @@ SUITS := import sys, venv, ensurepip; sys.exit(not (3, 10) <= sys.version_info[:
 PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11 python3.10; do \
 	if $$p -c '$(SUITS)' 2>/dev/null; then echo $$p; break; fi; done)
 
-.PHONY: help demo test lint clean
+.PHONY: help venv demo test lint clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-6s %s\n", $$1, $$2}' Makefile
+
+venv: $(VENV)/.ready ## make the environment that all else runs in
 
 demo: $(VENV)/.ready ## drive, record, find the hidden effect, drive again; OUT=folder SEED=number
 	$(VENV)/bin/python -m diffbot_sim demo --out $(OUT) $(if $(SEED),--seed $(SEED))

@@ -29,9 +29,9 @@ def main() -> None:
     """Judge the chosen cases that have not been, or tell what all of them say."""
     options = _options()
     if options.table:
-        print(tables(rows(options.out)))
+        print(tables(_judged_before(options.out)))
     elif options.wrong:
-        print('\n\n'.join(evidence(row) for row in rows(options.out) if not right(row)))
+        print('\n\n'.join(evidence(row) for row in _judged_before(options.out) if not right(row)))
     else:
         _judge(options)
 
@@ -47,6 +47,13 @@ def _judge(options: Namespace) -> None:
             file.write(json.dumps(row) + '\n')
             file.flush()
             print(told(row), flush=True)
+
+
+def _judged_before(path: Path) -> list[Row]:
+    known = rows(path)
+    if not known:
+        raise SystemExit(f'{path}: no cases yet. Judge some first, with --family and --seeds.')
+    return known
 
 
 def rows(path: Path) -> list[Row]:
