@@ -16,7 +16,7 @@ from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
-from diffbot_sim.records import Odometry, Run
+from diffbot_sim.records import Array, Odometry, Run
 
 TICK = 1.5e-4  # [m] that a wheel rolls for each count
 HALF = Model().robot.half_separation
@@ -100,12 +100,39 @@ def test_tracker_whose_twists_are_means_over_a_noisy_pose_makes_no_robot_strange
     assert answer.verdict == 'nothing_missing'
 
 
-@pytest.mark.parametrize('with_pose', [True, False])
-def test_differences_of_encoders_do_not_make_a_robot_late(with_pose: bool) -> None:
-    run = counted(driven(Model()), 1)
-    if not with_pose:
-        run = replace(run, odometry=replace(run.odometry, pose=None))
-    answer = identify([run], Model(), kinds=LATENESS)
+def posed(run: Run, moved: Array) -> Run:
+    """Return a run whose poses are its ways and turns between samples, (k - 1, 2), added up."""
+    first = run.odometry.pose[:1]
+    heading = first[0, 2] + np.concatenate([[0.0], np.cumsum(moved[:, 1])])
+    middle = 0.5 * (heading[1:] + heading[:-1])
+    steps = moved[:, :1] * np.column_stack([np.cos(middle), np.sin(middle)])
+    where = np.concatenate([first[:, :2], first[:, :2] + np.cumsum(steps, axis=0)])
+    return replace(run, odometry=replace(run.odometry, pose=np.column_stack([where, heading])))
+
+
+def at_both_ends(odometry: Odometry) -> Array:
+    """Return ways and turns as the twists at both ends of each step make them."""
+    return 0.5 * (odometry.twist[1:] + odometry.twist[:-1]) * np.diff(odometry.time)[:, None]
+
+
+def headed_by_its_turn_rate(run: Run) -> Run:
+    """Return a run whose poses have the heading that its turn rates sum up to."""
+    way = run.odometry.twist[1:, 0] * np.diff(run.odometry.time)
+    return posed(run, np.column_stack([way, at_both_ends(run.odometry)[:, 1]]))
+
+
+def without_pose(run: Run) -> Run:
+    return replace(run, odometry=replace(run.odometry, pose=None))
+
+
+def posed_by_its_twists(run: Run) -> Run:
+    """Return a run whose pose tells nothing but what its twists do."""
+    return posed(run, at_both_ends(run.odometry))
+
+
+@pytest.mark.parametrize('known', [lambda run: run, without_pose, posed_by_its_twists])
+def test_differences_of_encoders_do_not_make_a_robot_late(known: Callable[[Run], Run]) -> None:
+    answer = identify([known(counted(driven(Model()), 1))], Model(), kinds=LATENESS)
     assert answer.verdict == 'nothing_missing'
     assert [it.lateness for it in answer.timings] == pytest.approx([0.01])
 
@@ -125,17 +152,6 @@ def beside_a_gyro(run: Run) -> Run:
     at_once = np.isin(run.odometry.time, seen.time)
     twist = np.column_stack([seen.twist[:, 0], run.odometry.twist[at_once, 1]])
     return replace(run, odometry=replace(seen, twist=twist))
-
-
-def headed_by_its_turn_rate(run: Run) -> Run:
-    """Return a run whose poses have the heading that its turn rates sum up to."""
-    seen = run.odometry
-    mean, step = 0.5 * (seen.twist[1:, 1] + seen.twist[:-1, 1]), np.diff(seen.time)
-    heading = seen.pose[0, 2] + np.concatenate([[0.0], np.cumsum(mean * step)])
-    way, middle = seen.twist[1:, 0] * step, 0.5 * (heading[1:] + heading[:-1])
-    moved = way[:, None] * np.column_stack([np.cos(middle), np.sin(middle)])
-    where = seen.pose[0, :2] + np.concatenate([np.zeros((1, 2)), np.cumsum(moved, axis=0)])
-    return replace(run, odometry=replace(seen, pose=np.column_stack([where, heading])))
 
 
 @pytest.mark.parametrize(
@@ -168,7 +184,7 @@ def test_means_are_beyond_doubt_before_anything_is_searched() -> None:
 
 def test_late_robot_does_not_make_means_beyond_doubt() -> None:
     late = driven(Model(effects=(ActuatorDelay(0.012),)))
-    run = replace(late, odometry=replace(late.odometry, pose=None))
+    run = without_pose(late)
     base, _ = fitted(run)
     assert not Ages(base, Recordings((run,), ())).beyond_doubt(LATENESS)
 

@@ -41,6 +41,9 @@ CLEAR = 0.1
 NEIGHBOURS, APART = 4, 5
 # A speed [m/s, rad/s] that is as good as none.
 TINY = 1e-9
+# A path that is a sum of twists misses it by less than this share of what the ways to add them up
+# differ by.
+SUMMED = 0.01
 
 # The components of a twist, and those of a path beside them, that are looked at.
 Components = tuple[int, ...]
@@ -153,10 +156,23 @@ def lag_behind_pose(odometry: Odometry, of: Components = TWIST) -> float:
 
 
 def _telling_path(odometry: Odometry) -> Array | None:
-    """Return way and heading by the pose, shape (k, 2); None without one or in a short run."""
+    """Return way and heading by the pose, shape (k, 2); None where none tells more than twists."""
     if odometry.pose is None or odometry.time[-1] - odometry.time[0] < SHORTEST:
         return None
-    return path_of(odometry.pose)
+    path = path_of(odometry.pose)
+    return None if _is_summed(path, odometry) else path
+
+
+def _is_summed(path: Array, odometry: Odometry) -> bool:
+    """Say whether a path is a sum of the twists before, at both ends of, or after steps.
+
+    Then it is of their time, whatever that is.
+    """
+    moved, steps = np.diff(path, axis=0), np.diff(odometry.time)[:, None]
+    before, after = steps * odometry.twist[:-1], steps * odometry.twist[1:]
+    apart = norm(after - before).pair
+    ways = (moved - share * before - (1.0 - share) * after for share in (1.0, 0.5, 0.0))
+    return any(np.all(norm(missed).pair < SUMMED * apart) for missed in ways)
 
 
 def _errors(odometry: Odometry, path: Array, of: Components, lag: float) -> Array:
