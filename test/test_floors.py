@@ -33,7 +33,7 @@ STOREYS: list[set[str]] = [
     {'fitting'},
     {'selection'},
     {'free_forms', 'conclusions', 'suspicion', 'found', 'leading'},
-    {'doubt', 'following', 'older', 'later'},
+    {'doubt', 'following', 'older', 'odd_ones', 'later'},
     {'simulating'},
     {'search'},
     {'identify'},

@@ -1,7 +1,7 @@
 """What a search finds in recordings, and what it begins with."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.recordings.lateness import half_interval, timing
@@ -29,7 +29,8 @@ class Found:
     another form than declared, which is allowed for, lowers the deviance; time_constant [s]: of
     the filter of their twists that was undone, 0 if none was; undecided: whether twists may be
     older than their stamps; lead [s]: by how much forces were taken to act before theirs;
-    noisy: the recordings as they were given, with noise added, if they had none; None if they had.
+    noisy: the recordings as they were given, with noise added, if they had none; None if they had;
+    aside: the runs that were set aside, and which effects each has that the others deny.
     """
 
     recordings: Recordings
@@ -43,6 +44,7 @@ class Found:
     undecided: bool = False
     lead: float = 0.0
     noisy: Recordings | None = None
+    aside: Mapping[int, frozenset[str]] = field(default_factory=dict)
 
     @property
     def says_something(self) -> bool:

@@ -88,7 +88,7 @@ def _concluded(found: Found, declared: Model) -> Identification:
         advice=advice(selection, known),
         empirical=table_of(unexplained) if closed and unexplained else None,
         horizons=horizons(models, watched, held_out, errors),
-        runs=agreement(selection.final, found.recordings.all, found.recordings.aside),
+        runs=agreement(selection.final, found.recordings.all, found.aside),
         near_rest=found.near_rest,
         added_noise=noise if found.noisy else None,
     )

@@ -177,7 +177,8 @@ class RunCheck:
 
     error: free-running over the whole run, with parameters learned from the other runs alone;
     noise_floor: what white noise leaves of it. differences: beyond chance, the surest first; none
-    where the run agrees. set_aside: whether nothing was learned from it, since it does not.
+    where the run agrees. set_aside: whether nothing was learned from it, since it does not;
+    own_effects: those that it shows by itself then, and the others deny.
     """
 
     name: str
@@ -185,6 +186,7 @@ class RunCheck:
     noise_floor: ErrorNorm
     differences: tuple[Difference, ...] = ()
     set_aside: bool = False
+    own_effects: tuple[str, ...] = ()
 
     @property
     def agrees(self) -> bool:

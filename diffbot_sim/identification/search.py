@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from diffbot_sim.errors import DataError
-from diffbot_sim.identification.conclusions.agreement import odd_runs
 from diffbot_sim.identification.doubt import doubt, with_friction_eased
 from diffbot_sim.identification.fitting.calibration import calibrate, simulation_error
 from diffbot_sim.identification.fitting.coordinates import Space
@@ -17,6 +16,7 @@ from diffbot_sim.identification.found import Begun, Found
 from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
 from diffbot_sim.identification.later import sets_in_later
 from diffbot_sim.identification.leading import acted_before, lead_of
+from diffbot_sim.identification.odd_ones import denied_by, odd_among
 from diffbot_sim.identification.older import (
     Ages,
     Older,
@@ -73,30 +73,29 @@ def search(
 def _answered(recordings: Recordings, question: Question) -> Found:
     """Search in all runs, and without those that disagree where that leaves less to be told.
 
-    Each run that is set aside must have nothing unexplained, and no effect of its own, either:
-    what shows in some runs alone is no reason to leave these out.
+    Each run that is set aside must have nothing unexplained, either, and no effect but what the
+    others have or deny: what shows in some runs alone is no reason to leave these out.
     """
     found = _asked(recordings, question)
-    odd = (
-        odd_runs(found.selection.final, found.recordings.learned) if found.says_something else None
-    )
+    odd = odd_among(found)
     if not odd:
         return found
     question.progress('setting aside what disagrees with the other runs')
     others = _asked(replace(recordings, aside=odd), question)
     if others.unexplained or not (found.unexplained or others.names < found.names):
         return found
-    alone = (_alone(run, question) for i, run in enumerate(recordings.learned) if i in odd)
-    return others if all(one and one.names <= others.names for one in alone) else found
+    own = {index: _own_effects(recordings.learned[index], others, question) for index in odd}
+    known = {index: names for index, names in own.items() if names is not None}
+    return replace(others, aside=known) if len(known) == len(odd) else found
 
 
-def _alone(run: Run, question: Question) -> Found | None:
-    """Search in one run; return nothing where it is too short, or leaves something unexplained."""
+def _own_effects(run: Run, others: Found, question: Question) -> frozenset[str] | None:
+    """Return the effects of a run by itself that the others deny; nothing if it stays unclear."""
     try:
-        found = _asked(Recordings((run,), ()), question)
-    except DataError:
+        alone = _asked(Recordings((run,), ()), question)
+    except DataError:  # too short
         return None
-    return None if found.unexplained else found
+    return None if alone.unexplained else denied_by(others, alone)
 
 
 def _asked(recordings: Recordings, question: Question) -> Found:

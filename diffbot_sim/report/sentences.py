@@ -175,6 +175,8 @@ def _milliseconds(it: Timing) -> str:
 
 def why(run: RunCheck) -> str:
     """Say in which parameters a run differs, the surest three; empty where it agrees."""
+    if run.own_effects:
+        return f'by itself it shows {_listed(run.own_effects, "and")}, which they deny'
     if run.set_aside and not run.differences:
         return 'beside them something would be missing'
     return '; '.join(

@@ -5,10 +5,11 @@ together is the mean of their own estimates, each weighted by its information: n
 however many runs are held out.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from operator import add
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -31,6 +32,7 @@ LEVEL = 0.01
 IMMATERIAL = 0.02
 # Evaluations for each run's own fit, in each of its two rounds.
 EVALUATIONS = 4
+NONE_ASIDE: Mapping[int, frozenset[str]] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -61,16 +63,17 @@ class Estimated(NamedTuple):
 
 
 def agreement(
-    joint: Fit, runs: Sequence[Run], aside: frozenset[int] = frozenset()
+    joint: Fit, runs: Sequence[Run], aside: Mapping[int, frozenset[str]] = NONE_ASIDE
 ) -> tuple[RunCheck, ...]:
     """Judge each run by the others; nothing where there is only one.
 
-    joint: the final structure, fitted to the runs by one-step prediction, but for those set aside.
+    joint: the final structure, fitted to the runs by one-step prediction, but for those set aside;
+    aside: what effects these have that the others lack.
     """
     if len(runs) < 2:
         return ()
     fits, shares = _each_alone(joint, runs)
-    odd = disagreeing(joint, fits, shares, aside)
+    odd = disagreeing(joint, fits, shares, frozenset(aside))
     checks = (
         _check(
             fit,
@@ -80,7 +83,10 @@ def agreement(
         )
         for index, fit in enumerate(fits)
     )
-    return tuple(replace(check, set_aside=i in aside) for i, check in enumerate(checks))
+    return tuple(
+        replace(check, set_aside=i in aside, own_effects=tuple(sorted(aside.get(i, ()))))
+        for i, check in enumerate(checks)
+    )
 
 
 def odd_runs(joint: Fit, runs: Sequence[Run]) -> frozenset[int]:
@@ -124,23 +130,26 @@ def estimate_of(joint: Fit, share: Share) -> Estimated:
 def disagreeing(
     joint: Fit, fits: Sequence[Fit], shares: Sequence[Share], known: frozenset[int] = frozenset()
 ) -> frozenset[int]:
-    """Return which runs disagree, set aside one by one, the worst first, after those known to.
+    """Return which runs disagree, after those known to: one by one, whose going helps the most.
 
-    So a run that spoils what the others say does not make them look wrong. Of two that disagree
-    with each other nobody can say which is wrong: both are returned.
+    So a run that spoils what the others say does not make them look wrong, however little it says
+    itself. Of two that disagree with each other nobody can say which is wrong: both are returned.
     """
-    everyone = frozenset(range(len(fits)))
-    left = everyone - known
-    while len(left) > 1:
-        chance = {}
+
+    def agreed(left: frozenset[int]) -> float:
+        least = 1.0
         for index in sorted(left):
             own = estimate_of(joint, shares[index])
             others = estimate_of(joint, total(shares, sorted(left - {index})))
-            chance[index] = float(chances(fits[index], own, others, len(fits)).min())
-        worst = min(chance, key=lambda index: chance[index])
-        if chance[worst] >= LEVEL:
-            break
-        left = left - {worst} if len(left) > 2 else frozenset()
+            least = min(least, float(chances(fits[index], own, others, len(fits)).min()))
+        return least
+
+    everyone = frozenset(range(len(fits)))
+    left = everyone - known
+    while len(left) > 1 and agreed(left) < LEVEL:
+        if len(left) == 2:
+            return everyone
+        left = max((left - {index} for index in sorted(left)), key=agreed)
     return everyone - left
 
 
