@@ -38,11 +38,15 @@ class Odometry:
 
 @dataclass(frozen=True)
 class Run:
-    """One drive of one robot: what was commanded and what was measured."""
+    """One drive of one robot: what was commanded and what was measured.
+
+    rolled: way [m] and turn [rad] since its wheels stood at angle 0, where it begins.
+    """
 
     name: str
     commands: Commands
     odometry: Odometry
+    rolled: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass(frozen=True)

@@ -34,7 +34,7 @@ STOREYS: list[set[str]] = [
     {'selection'},
     {'free_forms', 'conclusions', 'suspicion', 'found', 'leading'},
     {'doubt', 'following', 'older', 'odd_ones', 'later'},
-    {'simulating'},
+    {'simulating', 'standing_wheels'},
     {'search'},
     {'identify'},
 ]

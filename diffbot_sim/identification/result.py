@@ -178,7 +178,8 @@ class RunCheck:
     error: free-running over the whole run, with parameters learned from the other runs alone;
     noise_floor: what white noise leaves of it. differences: beyond chance, the surest first; none
     where the run agrees. set_aside: whether nothing was learned from it, since it does not;
-    own_effects: those that it shows by itself then, and the others deny.
+    own_effects: those that it shows by itself then, and the others deny. wheel_angles: where the
+    right and the left wheel were taken to stand as it began [rad], 0 unless a ripple tells.
     """
 
     name: str
@@ -187,6 +188,7 @@ class RunCheck:
     differences: tuple[Difference, ...] = ()
     set_aside: bool = False
     own_effects: tuple[str, ...] = ()
+    wheel_angles: tuple[float, float] = (0.0, 0.0)
 
     @property
     def agrees(self) -> bool:

@@ -35,8 +35,10 @@ from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.selection.stepwise import select
 from diffbot_sim.identification.selection.trials import Progress
 from diffbot_sim.identification.simulating import is_integrators, without_worsening
+from diffbot_sim.identification.standing_wheels import standing
 from diffbot_sim.identification.suspicion import SUSPICIOUS
 from diffbot_sim.physics.effects import Effect
+from diffbot_sim.physics.effects.wheel_ripple import WheelRipple
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Run
 
@@ -228,6 +230,17 @@ def _begun(recordings: Recordings, question: Question) -> Begun:
 
 
 def _found(begun: Begun, question: Question) -> Found:
+    """Find the structure, with the wheels of each run where a ripple says that they stood."""
+    found = _doubted(begun, question)
+    recordings = standing(found)
+    if recordings is None:
+        return found
+    question.progress('letting wheels begin where a ripple says that they stand')
+    other = _doubted(_begun(recordings, question), question)
+    return other if WheelRipple.name in other.names else found
+
+
+def _doubted(begun: Begun, question: Question) -> Found:
     """Find the structure, and doubt what was found."""
     selection = select(begun.base, question.kinds, begun.held_out, question.progress)
     question.progress('looking for structure that is left')

@@ -89,6 +89,7 @@ def _agreement(run: RunCheck | None) -> dict[str, Any]:
         'agrees': None if run is None else run.agrees,
         'set_aside': None if run is None else run.set_aside,
         'own_effects': [] if run is None else run.own_effects,
+        'wheel_angles': None if run is None else run.wheel_angles,
         'why': None if run is None else why(run),
         **asdict(nothing if run is None else run.error),
         'noise_floor': asdict(nothing if run is None else run.noise_floor),

@@ -50,6 +50,11 @@ BIAS = (
     'off its turn rates.'
 )
 
+STOOD = (
+    'its wheels were taken to begin {} rad (right) and {} rad (left) further in their turn than '
+    'those of the first run, as the ripple tells.'
+)
+
 NEAR_REST = (
     'Friction near rest is of another form than the declared law, as where wheels creep or yield '
     'before they slide. That was allowed for: without it, something would seem unexplained.'
@@ -159,8 +164,13 @@ def of_recordings(result: Identification) -> list[str]:
     """Say what was not taken as it was recorded or declared, and why."""
     biases = [f'{it.run}: {BIAS.format(_rate(it.rate))}' for it in result.biases]
     late = [f'{it.run}: {TIMINGS[it.taken].format(_milliseconds(it))}' for it in result.timings]
+    stood = [
+        f'{it.name}: {STOOD.format(*map(significant, it.wheel_angles))}'
+        for it in result.runs
+        if any(it.wheel_angles)
+    ]
     near_rest = [NEAR_REST] if result.near_rest > 0.0 else []
-    return [*biases, *late, *near_rest, *_noise(result.added_noise)]
+    return [*biases, *late, *stood, *near_rest, *_noise(result.added_noise)]
 
 
 def _noise(added: ErrorNorm | None) -> list[str]:

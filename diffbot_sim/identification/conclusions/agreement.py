@@ -24,6 +24,7 @@ from diffbot_sim.identification.recordings.stretches import Stretch, whole
 from diffbot_sim.identification.result import Difference, Estimate, RunCheck
 from diffbot_sim.identification.selection.evidence import BLOCKS, block_scores
 from diffbot_sim.identification.statistics.norms import noise_floor, norm
+from diffbot_sim.physics.kinematics import wheel_speeds
 from diffbot_sim.records import Array, Run
 
 # Chance that one of several runs of the same robot is said to disagree.
@@ -197,7 +198,12 @@ def _check(fit: Fit, own: Estimated, others: Estimated, runs: int) -> RunCheck:
         if chance[index] < LEVEL and _apart(here[names[index]], there[names[index]])
     )
     floor = noise_floor([stretch.twist], [predicted])
-    return RunCheck(stretch.run.name, norm(stretch.twist - predicted), floor, differences)
+    radius, half = fit.model.robot.wheel_radius, fit.model.half_separation
+    right, left = np.array(wheel_speeds(*stretch.run.rolled, half)) / radius
+    error = norm(stretch.twist - predicted)
+    return RunCheck(
+        stretch.run.name, error, floor, differences, wheel_angles=(float(right), float(left))
+    )
 
 
 def _apart(here: Estimate, there: Estimate) -> bool:

@@ -1,6 +1,6 @@
 """The recordings of one robot: what is learned from, and what is held out."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from diffbot_sim.errors import DataError
@@ -57,6 +57,12 @@ class Recordings:
     def all(self) -> tuple[Run, ...]:
         """All runs, those set aside among them."""
         return self.learned + self.validate
+
+    def rolled(self, before: Sequence[tuple[float, float]]) -> 'Recordings':
+        """Return the recordings whose wheels had rolled so far before each run, as in Run."""
+        runs = [replace(run, rolled=it) for run, it in zip(self.all, before, strict=True)]
+        learned = len(self.learned)
+        return replace(self, learned=tuple(runs[:learned]), validate=tuple(runs[learned:]))
 
     def each(self, change: Callable[[Run], Run]) -> 'Recordings':
         """Return the recordings with each run changed."""

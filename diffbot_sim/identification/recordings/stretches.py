@@ -157,7 +157,7 @@ def _stretch(run: Run, begin: float, end: float) -> Stretch:
     used = _used(run.name, time)
     pose = None if odometry.pose is None else odometry.pose[part]
     heading = measured_heading(odometry)[part]
-    way = measured_way(odometry)[part]
+    way = measured_way(odometry)[part] + run.rolled
     travelled, turned = way[0]
     start = replace(
         _start(time, twist, pose, float(heading[0])),
