@@ -37,7 +37,9 @@ def amplitude(meaning: str) -> float:
 
 @dataclass(frozen=True)
 class WheelRipple(Effect):
-    """Force c·cos(nθ) + s·sin(nθ) on each wheel, with its own angle θ, 0 at the start of the run.
+    """Force c·cos(nθ) + s·sin(nθ) on each wheel, with its own angle θ.
+
+    θ is 0 at the start of a run, in identification of the first one.
 
     It derives from a potential, so a full period does no work. While c = s = 0, n is without
     meaning.
