@@ -26,20 +26,23 @@ from diffbot_sim.records import Array
 PARTS = 8
 # What two numbers more must gain in the deviance, beyond their price.
 CLEARLY = 10.0
+NOWHERE = (0.0, 0.0)
 
 
 def standing(found: Found) -> Recordings | None:
     """Return recordings whose wheels begin where a ripple says, nothing where it says nothing.
 
-    The first run tells the ripple; each other one, where its wheels stood. That is asked once.
+    The first run that is learned from tells the ripple; each other one, where its wheels stood.
+    That is asked once.
     """
     recordings, final = found.recordings, found.selection.final
     is_known = any(any(run.rolled) for run in recordings.all)
     if WheelRipple.name not in found.names or len(recordings.all) < 2 or is_known:
         return None
-    first, *others = restarted(final.model, whole(recordings.all), MAX_STEP)
-    told = fit_prediction(final.space, (first,), final.u, final.gains)
-    rolled = [(0.0, 0.0), *(_rolled(told, stretch) for stretch in others)]
+    stretches = restarted(final.model, whole(recordings.all), MAX_STEP)
+    first = min(set(range(len(recordings.learned))) - recordings.aside)
+    told = fit_prediction(final.space, (stretches[first],), final.u, final.gains)
+    rolled = [_rolled(told, s) if s is not stretches[first] else NOWHERE for s in stretches]
     return recordings.rolled(rolled) if any(map(any, rolled)) else None
 
 
@@ -61,7 +64,7 @@ def _rolled(told: Fit, stretch: Stretch) -> tuple[float, float]:
     best = least_squares(errors, best, loss='huber', f_scale=HUBER, diff_step=1e-4, max_nfev=10).x
     as_it_was, better = (float(huber(errors(at)).sum()) for at in (np.zeros(2), best))
     price = 2.0 * float(np.log(2 * np.count_nonzero(stretch.used))) + CLEARLY
-    return rolled(best) if as_it_was - better > price else (0.0, 0.0)
+    return rolled(best) if as_it_was - better > price else NOWHERE
 
 
 def moved(stretch: Stretch, rolled: Sequence[float]) -> Stretch:
