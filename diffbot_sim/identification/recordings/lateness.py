@@ -164,14 +164,15 @@ def _telling_path(odometry: Odometry) -> Array | None:
 
 
 def _is_summed(path: Array, odometry: Odometry) -> bool:
-    """Say whether a path is a sum of the twists before, at both ends of, or after steps.
+    """Say whether a path is a sum of the twists before steps, or at both ends of them.
 
-    Then it is of their time, whatever that is.
+    Then it is of their time, whatever that is. A sum of those after the steps is what encoders
+    count, of which twists are means.
     """
     moved, steps = np.diff(path, axis=0), np.diff(odometry.time)[:, None]
     before, after = steps * odometry.twist[:-1], steps * odometry.twist[1:]
     apart = norm(after - before).pair
-    ways = (moved - share * before - (1.0 - share) * after for share in (1.0, 0.5, 0.0))
+    ways = (moved - share * before - (1.0 - share) * after for share in (1.0, 0.5))
     return any(np.all(norm(missed).pair < SUMMED * apart) for missed in ways)
 
 
