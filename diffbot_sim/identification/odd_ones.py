@@ -10,7 +10,8 @@ from diffbot_sim.physics.effects import Effect
 
 def odd_among(found: Found) -> frozenset[int]:
     """Return which runs disagree with the others, where something is said of them together."""
-    if not found.says_something or len(found.recordings.learned) < 2:
+    # Of two runs nobody can say which is odd.
+    if not found.says_something or len(found.recordings.learned) < 3:
         return frozenset()
     return odd_runs(found.selection.final, found.recordings.learned)
 

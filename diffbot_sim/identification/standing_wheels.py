@@ -18,14 +18,14 @@ from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch, whole
+from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE
 from diffbot_sim.identification.statistics.robust import HUBER, huber
 from diffbot_sim.physics.effects.wheel_ripple import WheelRipple
+from diffbot_sim.physics.kinematics import body_twist
 from diffbot_sim.records import Array
 
 # Angles of each wheel, in parts of a period, that are tried first.
 PARTS = 8
-# What two numbers more must gain in the deviance, beyond their price.
-CLEARLY = 10.0
 NOWHERE = (0.0, 0.0)
 
 
@@ -52,8 +52,8 @@ def _rolled(told: Fit, stretch: Stretch) -> tuple[float, float]:
     radius, half = told.model.robot.wheel_radius, told.model.half_separation
 
     def rolled(parts: Array) -> tuple[float, float]:
-        right, left = 2.0 * pi * radius / ripple.order * np.asarray(parts)
-        return float(0.5 * (right + left)), float(0.5 * (right - left) / half)
+        right, left = (2.0 * pi * radius / ripple.order * float(part) for part in parts)
+        return body_twist(right, left, half)
 
     def errors(parts: Array) -> Array:
         there = moved(stretch, rolled(parts))
@@ -63,7 +63,7 @@ def _rolled(told: Fit, stretch: Stretch) -> tuple[float, float]:
     best = min(grid, key=lambda parts: huber(errors(parts)).sum())
     best = least_squares(errors, best, loss='huber', f_scale=HUBER, diff_step=1e-4, max_nfev=10).x
     as_it_was, better = (float(huber(errors(at)).sum()) for at in (np.zeros(2), best))
-    price = 2.0 * float(np.log(2 * np.count_nonzero(stretch.used))) + CLEARLY
+    price = 2.0 * float(np.log(2 * np.count_nonzero(stretch.used))) + INDISTINGUISHABLE
     return rolled(best) if as_it_was - better > price else NOWHERE
 
 

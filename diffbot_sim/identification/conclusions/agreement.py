@@ -199,11 +199,10 @@ def _check(fit: Fit, own: Estimated, others: Estimated, runs: int) -> RunCheck:
     )
     floor = noise_floor([stretch.twist], [predicted])
     radius, half = fit.model.robot.wheel_radius, fit.model.half_separation
-    right, left = np.array(wheel_speeds(*stretch.run.rolled, half)) / radius
+    right, left = wheel_speeds(*stretch.run.rolled, half)
+    angles = (right / radius, left / radius)
     error = norm(stretch.twist - predicted)
-    return RunCheck(
-        stretch.run.name, error, floor, differences, wheel_angles=(float(right), float(left))
-    )
+    return RunCheck(stretch.run.name, error, floor, differences, wheel_angles=angles)
 
 
 def _apart(here: Estimate, there: Estimate) -> bool:
