@@ -13,7 +13,7 @@ from diffbot_sim.commands.demo import NOISE
 from diffbot_sim.config import load_model
 from diffbot_sim.physics import Model, simulate
 
-# Hides yaw friction. A slope would ask for luck as well: on one, what is wrong by chance grows.
+# Hides yaw friction. On a slope, what is wrong by chance would grow.
 SEED = 3
 
 

@@ -92,6 +92,13 @@ def test_the_model_driven_with_the_recorded_forces_repeats_the_recorded_motion(b
     assert np.abs(odom.twist).max() > 0.2
 
 
+def test_a_recorder_says_what_it_found_before_anyone_speaks(robot, tmp_path):
+    topic = 'left_wheel/force_cmd'
+    with running(tmp_path / 'log', 'recorder', '-o', str(tmp_path / 'bag')) as recorder:
+        robot.until(lambda: f'found {topic}\n' in recorder.said())
+        assert f'hears {topic}' not in recorder.said()
+
+
 def test_replaying_a_bag_pushes_the_robot_as_recorded(bag, robot, simulator, tmp_path):
     robot.listen(WrenchStamped, 'right_wheel/force')
     robot.call(Empty, 'simulator/reset', Empty.Request())

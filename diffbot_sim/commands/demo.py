@@ -22,7 +22,8 @@ from diffbot_sim.physics.effects import Effect, laws
 from diffbot_sim.physics.model import Model
 
 NOISE = {'linear': 0.004, 'angular': 0.008}  # of the odometry [m/s], [rad/s]
-RATE, SPEED_UP = 50.0, 3.0  # odometry [Hz]; simulation over wall time
+RATE = 50.0  # of the odometry [Hz]
+INNER_LOOP = {'lockstep': True, 'enable_stamped_cmd_vel': True}
 LEARNING, AGAIN = 100.0, 30.0  # lengths of the drives [s]
 # The hidden robot's nominal parameters are off the declared ones by up to this share, and the
 # effect has this many typical sizes.
@@ -32,7 +33,7 @@ MISCALIBRATION, SIZES = 0.1, (2.0, 5.0)
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the options."""
     parser.add_argument('--out', type=Path, default=Path('out/demo'), metavar='DIR')
-    parser.add_argument('--seed', type=int, help='repeats a choice of the hidden effect')
+    parser.add_argument('--seed', type=int, help='repeats the hidden effect and the drives')
 
 
 def run(arguments: Namespace) -> None:
@@ -78,13 +79,16 @@ def hide(declared: Model, seed: int) -> Model:
 
 
 def drive(params: Path, bag: Path, duration: float, seed: int) -> None:
-    """Run simulator, inner loop, recorder and driver as processes until the drive is over."""
+    """Run simulator, inner loop, recorder and driver as processes until the drive is over.
+
+    In lockstep, so that a seed gives the same drive again, however busy the machine is.
+    """
     logs = bag.parent / 'logs' / bag.name
     logs.mkdir(parents=True, exist_ok=True)
     domain = free_domain()
     options = {
+        'lockstep': True,
         'publish_rate': RATE,
-        'real_time_factor': SPEED_UP,
         'odometry_noise.seed': seed,
         **{f'odometry_noise.{name}': value for name, value in NOISE.items()},
     }
@@ -97,12 +101,12 @@ def drive(params: Path, bag: Path, duration: float, seed: int) -> None:
 
         file = ('--ros-args', '--params-file', str(params))
         start('simulator', 'ready', *file, *_set(options))
-        start('pi_controller', 'ready', *file)
+        start('pi_controller', 'ready', *file, *_set(INNER_LOOP))
         recorder = start('recorder', 'recording', '--output', str(bag))
         for topic in chain(*NAMES.values()):
             # Nodes may find each other late: then the drive's begin is lost.
-            recorder.wait_for(f'hears {topic}\n')
-        words = _set({'duration': duration, 'seed': seed})
+            recorder.wait_for(f'found {topic}\n')
+        words = _set({'duration': duration, 'seed': seed, 'stamped': True})
         driver = start('driver', 'driving', '--ros-args', *words)
         driver.wait(10.0 * duration)
 
@@ -137,7 +141,8 @@ def _some(kind: type[Effect], random: np.random.Generator) -> Effect:
 
 
 def _set(options: Mapping[str, float]) -> list[str]:
-    return [word for key, value in options.items() for word in ('-p', f'{key}:={value}')]
+    words = {key: str(value).lower() for key, value in options.items()}
+    return [word for key, value in words.items() for word in ('-p', f'{key}:={value}')]
 
 
 def _conclude(out: Path, hidden: Effect) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from rclpy.clock import Clock, ClockType
+from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -118,7 +119,12 @@ class Recorder(Node):
             durability=DurabilityPolicy[source.offer.durability.upper()],
         )
         act = partial(self._on_message, topic, source)
-        return self.create_subscription(kind, topic, act, quality, raw=True)
+        met = SubscriptionEventCallbacks(matched=partial(self._on_matched, topic))
+        return self.create_subscription(kind, topic, act, quality, raw=True, event_callbacks=met)
+
+    def _on_matched(self, topic: str, met: Any) -> None:
+        if met.current_count_change > 0:
+            self.get_logger().info(f'found {topic}')
 
     def _on_message(self, topic: str, source: Source, data: bytes, info: Any) -> None:
         if topic not in self._heard:
