@@ -1,5 +1,8 @@
 """The search for a structure: what enters must be needed in the end."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 from fits import SMOOTH, fitted
 
@@ -48,3 +51,13 @@ def test_limit_is_one_of_voltage_where_it_does_much_by_falling_with_speed(
     _, falls = fit.space.places('voltage_limit')
     much = ESSENTIAL_SHARE * likelihood_ratio(without, fit)
     assert (rise_without(fit, [falls]) > much) == is_of_voltage
+
+
+def test_limit_that_acts_for_moments_enters_where_other_data_confirm_it() -> None:
+    drive = random_forces(3, 60.0, -9.0, 11.0)
+    strong = np.any([abs(drive.time - at) < 1.0 for at in (11.0, 51.0)], axis=0)
+    drive = replace(drive, force=np.where(strong[:, None], 1.0, 0.5) * drive.force)
+    limited = Model(effects=(VoltageLimit(9.0, 3.0),))
+    fit, held_out = fitted(rehearse(limited, drive, SMOOTH, 3))
+    (trial,) = try_all(Screen(fit), [VoltageLimit], held_out, lambda text: None)
+    assert trial.accepted

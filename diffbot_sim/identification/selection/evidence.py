@@ -33,7 +33,7 @@ class Evidence:
     """A structure against the smaller one inside it.
 
     delta_bic: fall of the BIC; p_value: likelihood ratio; p_block: Wald test with the covariance
-    of blocks, nan where it began too late for that; held_out_gain: fall of the mean half squared
+    of blocks, nan where too few know of it; held_out_gain: fall of the mean half squared
     error per held-out sample; p_held_out: the chance of that, by signed ranks of blocks; p_folds:
     the same of parts of the runs predicted from the others, nan where they prove nothing.
     """
@@ -77,7 +77,7 @@ def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
     return Evidence(
         delta_bic=ratio - _price(small, large, large.whitened.size),
         p_value=float(stats.chi2.sf(ratio, added)),
-        p_block=nan if of_time and _began_late(large, amounts) else wald(large, amounts, shapes),
+        p_block=nan if _known_to_few(large, amounts) else wald(large, amounts, shapes),
         held_out_gain=gain,
         p_held_out=chance,
         p_folds=nan if of_time else _folds_chance(large, amounts, shapes),
@@ -253,7 +253,7 @@ def rise_without(fit: Fit, amounts: Sequence[int]) -> float:
     return float(departure @ np.linalg.pinv(spread[np.ix_(amounts, amounts)]) @ departure)
 
 
-def _began_late(fit: Fit, amounts: Sequence[int]) -> bool:
+def _known_to_few(fit: Fit, amounts: Sequence[int]) -> bool:
     """Say whether too few blocks know of some amounts to tell what is chance."""
     jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
     return informative_blocks(jacobian[:, amounts]) < len(amounts) + FEWEST

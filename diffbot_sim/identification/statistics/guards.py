@@ -58,7 +58,7 @@ def elsewhere(held_out: float, parts: float) -> float:
 def lasting(p_block: float, p_elsewhere: float) -> bool:
     """Say whether something is neither a passing disturbance nor a fit to one: Fisher's method.
 
-    p_block: nan where it began too late for blocks to tell: then the other must be as sure as
+    p_block: nan where too few blocks know of it to tell: then the other must be as sure as
     both; p_elsewhere: the chance of what it predicts of data that it was not fitted to.
     """
     if isnan(p_block):
