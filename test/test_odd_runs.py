@@ -12,6 +12,7 @@ from diffbot_sim.physics import Friction, Model, Robot
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
+from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.physics.effects.yaw_friction import YawFriction
 from diffbot_sim.records import Run
 
@@ -19,7 +20,7 @@ PLAIN = Model()
 LOADED = Model(
     Robot(mass=13.0, inertia=0.5), Friction(mu_static=0.06, mu_coulomb=0.04, mu_viscous=0.1)
 )
-KINDS: tuple[type[Effect], ...] = (ActuatorGain, QuadraticDrag)
+KINDS: tuple[type[Effect], ...] = (ActuatorGain, QuadraticDrag, Slope)
 
 
 def drive(robot: Model, number: int) -> Run:
@@ -64,10 +65,13 @@ def test_load_is_told_by_how_the_run_differs(with_a_load: Identification) -> Non
     assert mass.here.low < LOADED.robot.mass < mass.here.high
 
 
-def test_effect_that_acts_in_one_run_and_that_the_others_deny_is_told_of_that_run() -> None:
-    found = answer(PLAIN, Model(effects=(QuadraticDrag(6.0),)), PLAIN)
+@pytest.mark.parametrize('acts', [QuadraticDrag(6.0), Slope(0.025, 0.01)], ids=lambda it: it.name)
+def test_effect_that_acts_in_one_run_and_that_the_others_deny_is_told_of_that_run(
+    acts: Effect,
+) -> None:
+    found = answer(PLAIN, Model(effects=(acts,)), PLAIN)
     assert found.verdict == 'nothing_missing'
-    assert [run.own_effects for run in found.runs] == [(), ('quadratic_drag',), ()]
+    assert [run.own_effects for run in found.runs] == [(), (acts.name,), ()]
 
 
 def test_effect_that_the_other_runs_do_not_show_is_told_of_all() -> None:
