@@ -4,6 +4,7 @@ python benchmarks/mujoco_robots.py        a Markdown table
 """
 
 import sys
+from argparse import ArgumentParser
 from collections.abc import Callable
 from pathlib import Path
 
@@ -103,6 +104,7 @@ def _line(change: Change, found: Identification) -> str:
 
 def main() -> None:
     """Print a line for each robot as it is ready."""
+    ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
     print('| robot | found | error before / noise | error after / noise |\n|---|---|---|---|')
     for change in CHANGES:
         print(_line(change, answer(change)), flush=True)

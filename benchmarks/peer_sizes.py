@@ -3,6 +3,7 @@
 python benchmarks/peer_sizes.py        what each effect adds to the error of a nominal model
 """
 
+from argparse import ArgumentParser
 from math import sqrt
 
 import numpy as np
@@ -67,6 +68,7 @@ def _nudged(plant: Plant, name: str) -> Plant:
 
 def main() -> None:
     """Print weak sizes, and the error that typical effects leave to a nominal model."""
+    ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
     for make in MAKES:
         drive = _Quiet(MAKES[make], 0)
         for name in EFFECTS | FOREIGN:
