@@ -78,6 +78,12 @@ def test_wheels_that_yield_like_bristles_leave_nothing_to_be_told() -> None:
     assert result.near_rest > SUSPICIOUS
 
 
+def test_wheels_that_yield_are_allowed_for_however_hard_they_are_driven() -> None:
+    run = driven_on_bristles(Model(), random_forces(3, 60.0, -40.0, 40.0), 3)
+    allowing, _ = eased(*fitted(run))
+    assert np.any(allowing.stretches[0].pushes)
+
+
 def test_tyres_that_begin_to_scrub_smoothly_leave_nothing_beside_yaw_friction() -> None:
     declared = Model(friction=Friction('coulomb_viscous'))
     run = driven_smoothly(declared, random_forces(3, 60.0, -9.0, 11.0), 0.2, 3)

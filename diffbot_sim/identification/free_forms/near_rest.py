@@ -5,8 +5,8 @@ there. Contacts creep, or bend like springs, and laws of Stribeck friction diffe
 centimetres a second all that is known of friction is an approximation. It is in every force that
 acts against the motion, whatever else that depends on, and none of them is told because of it. Nor
 is what moves a wheel that the declared friction still holds: a share of the force that drives it;
-nor how softly tyres begin to scrub as the robot turns. What holds harder than friction does, as a
-brake, is told.
+nor how softly tyres begin to scrub as the robot turns. What holds harder against the drive than
+friction does, as a brake, is told.
 """
 
 from collections.abc import Sequence
@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
+from diffbot_sim.identification.fitting.views import views
 from diffbot_sim.identification.free_forms.bases import again, bases
 from diffbot_sim.identification.free_forms.dependence import (
     best_against_the_model,
@@ -59,13 +60,16 @@ def _eased_once(fit: Fit, held_out: Stretches) -> tuple[Fit, Stretches] | None:
 
     u, gains = np.split(np.concatenate([fit.u, fit.gains]) + friction.adaptation, [len(fit.u)])
     better = fit_prediction(fit.space, pushed(fit.stretches), u, gains)
-    return None if _hardest_push(better) > MOST * _holding(better) else (better, pushed(held_out))
+    return None if _hardest_hold(better) > MOST * _holding(better) else (better, pushed(held_out))
 
 
-def _hardest_push(fit: Fit) -> float:
-    """Return the largest force [N] on a wheel that is allowed for."""
+def _hardest_hold(fit: Fit) -> float:
+    """Return the largest force [N] on a wheel that is allowed for against what drives it."""
     force, torque = np.concatenate([stretch.pushes for stretch in fit.stretches]).T
-    return 0.5 * float(np.max(np.abs(force) + np.abs(torque) / fit.model.half_separation))
+    turning = torque / fit.model.half_separation
+    on_wheels = 0.5 * np.column_stack([force + turning, force - turning])
+    driven = np.concatenate([view.force for view in views(fit, fit.stretches)])
+    return float(np.max(-on_wheels * np.sign(driven)))
 
 
 def _holding(fit: Fit) -> float:
