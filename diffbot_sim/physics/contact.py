@@ -159,17 +159,22 @@ def release(
 @compiled
 def arrive(z: Array, modes: Modes) -> None:
     """Stop, exactly, the contacts that have reached speed 0 or just passed it."""
+    yaw = abs(modes[YAW]) == 1 and modes[YAW] * (z[SPEED_RIGHT] - z[SPEED_LEFT]) <= 0.0
+    if not stop_wheels(z, modes) and yaw:
+        common = 0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT])
+        z[SPEED_RIGHT], z[SPEED_LEFT], modes[YAW] = common, common, 0
+
+
+@compiled
+def stop_wheels(z: Array, modes: Modes) -> bool:
+    """Stop the wheels that have reached speed 0 or passed it; tell whether one has."""
     right = modes[RIGHT] != 0 and modes[RIGHT] * z[SPEED_RIGHT] <= 0.0
     left = modes[LEFT] != 0 and modes[LEFT] * z[SPEED_LEFT] <= 0.0
-    turning = z[SPEED_RIGHT] - z[SPEED_LEFT]
-    yaw = abs(modes[YAW]) == 1 and modes[YAW] * turning <= 0.0
     if right:
         z[SPEED_RIGHT], modes[RIGHT] = 0.0, 0
     if left:
         z[SPEED_LEFT], modes[LEFT] = 0.0, 0
-    if yaw and not (right or left):
-        common = 0.5 * (z[SPEED_RIGHT] + z[SPEED_LEFT])
-        z[SPEED_RIGHT], z[SPEED_LEFT], modes[YAW] = common, common, 0
+    return right or left
 
 
 @compiled

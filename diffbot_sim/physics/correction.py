@@ -1,5 +1,7 @@
 """A change of speed from outside, as a measurement makes it: what sticks stays."""
 
+import numpy as np
+
 from diffbot_sim.physics import contact
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.contact import FREE, LEFT, RIGHT, YAW, Modes
@@ -9,13 +11,17 @@ from diffbot_sim.records import Array
 
 @compiled
 def correct(z: Array, modes: Modes, b: float, v: float, omega: float) -> None:
-    """Change the speed of what slides by v [m/s] and omega [rad/s]; nothing goes through zero."""
+    """Change the speed of what slides by v [m/s] and omega [rad/s]; no wheel goes through zero.
+
+    Turning may: dry friction against it soon stops it, and the slighter that is the later, so that
+    friction that vanishes leaves the motion without it.
+    """
     if modes[YAW] == 0:
         omega = 0.0
     if modes[RIGHT] != 0:
         z[SPEED_RIGHT] += v + b * omega
     if modes[LEFT] != 0:
         z[SPEED_LEFT] += v - b * omega
-    contact.arrive(z, modes)
-    if modes[RIGHT] == 0 and modes[LEFT] == 0 and modes[YAW] != FREE:
-        modes[YAW] = 0
+    contact.stop_wheels(z, modes)
+    if modes[YAW] != FREE:
+        modes[YAW] = np.sign(z[SPEED_RIGHT] - z[SPEED_LEFT])

@@ -6,6 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from motion import frictions, numbers, push
 
+from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS
+from diffbot_sim.identification.fitting.predictor import predict
+from diffbot_sim.identification.recordings.stretches import whole
 from diffbot_sim.physics import Friction, Model
 from diffbot_sim.physics.effects.yaw_friction import YawFriction
 from diffbot_sim.physics.state import State
@@ -37,3 +41,13 @@ def test_yaw_friction_does_not_touch_a_straight_drive(friction, dry, v):
     scrubbed = plain.with_effect(YawFriction(dry, 0.3))
     run, image = (push(model, 4.0, 4.0, 2.0, start=start) for model in (plain, scrubbed))
     np.testing.assert_allclose(image.twist, run.twist, rtol=1e-12, atol=1e-12)
+
+
+def test_noise_that_turns_the_robot_back_and_forth_meets_no_friction_that_vanishes():
+    run = rehearse(Model(), random_forces(2, 30.0, -9.0, 11.0), Surroundings(), 2)
+    (stretch,) = whole([run])
+    plain, vanishing = (
+        predict(Model(effects=effects), stretch, FIRST_GAINS).innovation
+        for effects in ((), (YawFriction(1e-9),))
+    )
+    np.testing.assert_allclose(vanishing, plain, atol=1e-6)
