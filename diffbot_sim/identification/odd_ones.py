@@ -24,23 +24,23 @@ WORSE = 1.1
 def odd_among(found: Found) -> frozenset[int]:
     """Return which runs disagree with the others, where something is said of them together.
 
-    Where their parameters are alike, those that are explained worse: what acts in one of several
-    runs, a slope under it, is followed there by the noise model.
+    As long as the others are more. Where their parameters are alike, those that are explained
+    worse: what acts in one of several runs, a slope under it, the noise model follows there.
     """
     runs, final = found.recordings.learned, found.selection.final
     # Of two runs nobody can say which is odd.
     if not found.says_something or len(runs) < 3:
         return frozenset()
-    return odd_runs(final, runs) or _explained_worse(final, runs)
+    odd = (ask(final, runs) for ask in (odd_runs, _explained_worse))
+    return next((few for few in odd if 0 < 2 * len(few) < len(runs)), frozenset())
 
 
 def _explained_worse(fit: Fit, runs: Sequence[Run]) -> frozenset[int]:
-    """Return which runs, fewer than half, a fit explains clearly worse than it does most."""
+    """Return which runs a fit explains clearly worse than it does most."""
     stretches = restarted(fit.model, whole(runs), MAX_STEP)
     errors = (whitened((it,), fit.model, fit.gains, fit.sigma) for it in stretches)
     squares = np.array([np.mean(influence(it) ** 2) for it in errors])
-    odd = np.flatnonzero(squares > WORSE * np.median(squares)).tolist()
-    return frozenset(odd) if 2 * len(odd) < len(runs) else frozenset()
+    return frozenset(np.flatnonzero(squares > WORSE * np.median(squares)).tolist())
 
 
 def denied_by(others: Found, alone: Found) -> frozenset[str] | None:

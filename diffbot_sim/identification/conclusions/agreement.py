@@ -91,9 +91,8 @@ def agreement(
 
 
 def odd_runs(joint: Fit, runs: Sequence[Run]) -> frozenset[int]:
-    """Return which runs disagree with all others, as long as these are more."""
-    odd = disagreeing(joint, *_each_alone(joint, runs))
-    return odd if 2 * len(odd) < len(runs) else frozenset()
+    """Return which runs disagree with all others."""
+    return disagreeing(joint, *_each_alone(joint, runs))
 
 
 def _each_alone(joint: Fit, runs: Sequence[Run]) -> tuple[list[Fit], list[Share]]:

@@ -60,9 +60,7 @@ class View:
     @cached_property
     def force(self) -> Array:
         """Commanded forces [N], shape (k, 2)."""
-        commands = self.stretch.run.commands
-        index = np.searchsorted(commands.time, self.stretch.time, side='right') - 1
-        return np.where(index[:, None] >= 0, commands.force[np.maximum(index, 0)], 0.0)
+        return commanded(self.stretch)
 
     def past_force(self, first: float, last: float) -> Array:
         """Return commanded forces averaged from `last` to `first` seconds ago, shape (k, 2)."""
@@ -82,3 +80,16 @@ def views(fit: Fit, stretches: Sequence[Stretch]) -> list[View]:
     """Return stretches as a fit sees them."""
     found = predictions(fit, stretches)
     return [View(fit, s, p) for s, p in zip(stretches, found, strict=True)]
+
+
+def commanded(stretch: Stretch) -> Array:
+    """Return the commanded forces [N] at every sample of a stretch, shape (k, 2)."""
+    commands = stretch.run.commands
+    index = np.searchsorted(commands.time, stretch.time, side='right') - 1
+    return np.where(index[:, None] >= 0, commands.force[np.maximum(index, 0)], 0.0)
+
+
+def on_wheels(push: Array, half_separation: float) -> Array:
+    """Return what force [N] and torque [N·m] on the body, (k, 2), are on both wheels, (k, 2)."""
+    force, turning = push[:, 0], push[:, 1] / half_separation
+    return 0.5 * np.column_stack([force + turning, force - turning])

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.fitting.views import View, views
+from diffbot_sim.identification.fitting.views import View, on_wheels, views
 from diffbot_sim.identification.free_forms.otherwise import force_over_time
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.statistics.norms import rms
@@ -54,9 +54,7 @@ def _standing_out(seen: Sequence[View]) -> Array:
 
 def _followed(view: View) -> Array:
     """Return the force on each wheel [N] that the noise model follows, shape (k, 2)."""
-    force, torque = view.prediction.disturbance.T
-    turning = torque / view.fit.model.half_separation
-    return 0.5 * np.column_stack([force + turning, force - turning])
+    return on_wheels(view.prediction.disturbance, view.fit.model.half_separation)
 
 
 def _words(standing_out: Array, commanded: Array) -> str:

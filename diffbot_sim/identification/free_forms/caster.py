@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 from numba import types
 
-from diffbot_sim.identification.fitting.views import View
+from diffbot_sim.identification.fitting.views import View, on_wheels
 from diffbot_sim.physics.compiled import compiled, entry
 from diffbot_sim.records import Array
 
@@ -50,7 +50,7 @@ class Caster:
         swivels = np.stack([-across, ahead * along - trail])
         twist = np.stack([view.v, view.omega])
         pushes = [-np.tanh(np.sum(by * twist, axis=0) / SLOW) * by for by in (rolls, swivels)]
-        return np.stack([_on_wheels(force, torque / half) for force, torque in pushes], axis=1)
+        return np.stack([on_wheels(push.T, half) for push in pushes], axis=1)
 
     def curve(self, place: Array) -> tuple[Array, Array]:
         """Return angles of the caster and what both do along the robot there, while it drives."""
@@ -90,8 +90,3 @@ def _swivel(time: Array, v: Array, omega: Array, ahead: float, trail: float, ang
             middle = at + 0.5 * step * _rate(at, v[k], omega[k], ahead, trail)
             at += step * _rate(middle, v[k], omega[k], ahead, trail)
         angle[k + 1] = at
-
-
-def _on_wheels(force: Array, torque: Array) -> Array:
-    """Return what a force and a torque over half the separation are on both wheels, (k, 2)."""
-    return 0.5 * np.column_stack([force + torque, force - torque])

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
-from diffbot_sim.identification.fitting.views import views
+from diffbot_sim.identification.fitting.views import commanded, on_wheels
 from diffbot_sim.identification.free_forms.bases import again, bases
 from diffbot_sim.identification.free_forms.dependence import (
     best_against_the_model,
@@ -65,11 +65,10 @@ def _eased_once(fit: Fit, held_out: Stretches) -> tuple[Fit, Stretches] | None:
 
 def _hardest_hold(fit: Fit) -> float:
     """Return the largest force [N] on a wheel that is allowed for against what drives it."""
-    force, torque = np.concatenate([stretch.pushes for stretch in fit.stretches]).T
-    turning = torque / fit.model.half_separation
-    on_wheels = 0.5 * np.column_stack([force + turning, force - turning])
-    driven = np.concatenate([view.force for view in views(fit, fit.stretches)])
-    return float(np.max(-on_wheels * np.sign(driven)))
+    pushes = np.concatenate([stretch.pushes for stretch in fit.stretches])
+    pushed = on_wheels(pushes, fit.model.half_separation)
+    driven = np.concatenate([commanded(stretch) for stretch in fit.stretches])
+    return float(np.max(-pushed * np.sign(driven)))
 
 
 def _holding(fit: Fit) -> float:
