@@ -8,7 +8,9 @@ from bristles import driven_on_bristles
 from fits import ROUGH, SMOOTH, acted_otherwise, fitted, left_by
 from peer_drives import DRIVES
 from peer_recording import Recording, record
-from peer_robots import MAKES, exact
+from peer_robots import MAKES, declared, exact
+from recovery_cases import Case
+from recovery_judge import planted_in, recorded
 from smoothed import driven_smoothly
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
@@ -85,9 +87,17 @@ def test_wheels_that_yield_are_allowed_for_however_hard_they_are_driven() -> Non
 
 
 def test_tyres_that_begin_to_scrub_smoothly_leave_nothing_beside_yaw_friction() -> None:
-    declared = Model(friction=Friction('coulomb_viscous'))
-    run = driven_smoothly(declared, random_forces(3, 60.0, -9.0, 11.0), 0.2, 3)
-    result = identify([run], declared, kinds=[YawFriction])
+    model = Model(friction=Friction('coulomb_viscous'))
+    run = driven_smoothly(model, random_forces(3, 60.0, -9.0, 11.0), 0.2, 3)
+    result = identify([run], model, kinds=[YawFriction])
+    assert [effect.name for effect in result.effects] == ['yaw_friction']
+    assert result.unexplained is None
+
+
+def test_name_that_explains_most_of_what_was_left_stands_beside_wheels_that_creep() -> None:
+    case = Case('creeping', ('yaw_friction',), 'typical', 'large', 'rough', 23, creep=0.01)
+    run = recorded(case, planted_in(case)[0])
+    result = identify([run], declared(MAKES['large'], case.seed), kinds=[YawFriction])
     assert [effect.name for effect in result.effects] == ['yaw_friction']
     assert result.unexplained is None
 
