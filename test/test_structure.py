@@ -97,7 +97,7 @@ def test_tyres_that_begin_to_scrub_smoothly_leave_nothing_beside_yaw_friction() 
 def test_name_that_explains_most_of_what_was_left_stands_beside_wheels_that_creep() -> None:
     case = Case('creeping', ('yaw_friction',), 'typical', 'large', 'rough', 23, creep=0.01)
     run = recorded(case, planted_in(case)[0])
-    result = identify([run], declared(MAKES['large'], case.seed), kinds=[YawFriction])
+    result = identify([run], declared(MAKES[case.make], case.seed), kinds=[YawFriction])
     assert [effect.name for effect in result.effects] == ['yaw_friction']
     assert result.unexplained is None
 

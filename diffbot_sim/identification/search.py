@@ -112,8 +112,8 @@ def _settled(found: Found, question: Question) -> Found:
         return found
     question.progress('allowing for friction near rest')
     doubted = doubt(found.undoubted, found.held_out, with_friction_eased)
-    # What chance could allow for excuses nothing, nor what explains more by itself, but for what
-    # names explain that stand only then, nor does what leaves something else to be told.
+    # What chance could allow for excuses nothing, nor does what leaves something else to be told.
+    # Nor is excused what is worth more, less what names explain of it that stand only then.
     support = doubted.selection.support
     only_then = sum(support[name].delta_bic for name in support.keys() - found.names)
     least = max(SUSPICIOUS, found.unexplained.worth - only_then)
