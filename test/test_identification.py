@@ -4,6 +4,9 @@ from functools import cache
 
 import numpy as np
 import pytest
+from peer_robots import MAKES, declared
+from recovery_cases import Case
+from recovery_judge import planted_in, recorded
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.errors import DataError
@@ -11,6 +14,7 @@ from diffbot_sim.identification import identify
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.physics import Friction, Model, Robot
 from diffbot_sim.physics.effects import laws, library
+from diffbot_sim.physics.effects.actuator_fade import ActuatorFade
 from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForce
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
 from diffbot_sim.records import Commands, Odometry, Run
@@ -106,6 +110,13 @@ def test_error_with_the_effect_falls_to_the_noise_floor(name: str) -> None:
 def test_hidden_effect_is_named_on_a_rough_floor() -> None:
     result = identify([run_of(with_typical('slope'), 4, ROUGH)], DECLARED)
     assert [effect.name for effect in result.effects] == ['slope']
+
+
+def test_fade_does_not_steepen_with_the_pushes_of_a_rough_floor() -> None:
+    case = Case('single', ('actuator_fade',), 'typical', 'small', 'rough', 4)
+    run = recorded(case, planted_in(case)[0])
+    result = identify([run], declared(MAKES[case.make], case.seed), kinds=[ActuatorFade])
+    assert [effect.name for effect in result.effects] == ['actuator_fade']
 
 
 def test_two_effects_hidden_in_one_run_are_both_named() -> None:

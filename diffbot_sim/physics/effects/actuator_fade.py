@@ -14,6 +14,9 @@ MOST_GROWTH = 10.0
 STRAIGHT = 1e-9
 # Bends, in times the length of the run, at which fits begin.
 BENDS = (0.0, 1.0, 4.0)
+# A fall may steepen by e in 50 s, as where a small battery is nearly empty. What steepens faster
+# fits any wobble of a rough floor, and goes far astray behind the data fitted.
+STEEPENING = -0.02
 
 
 @compiled
@@ -55,7 +58,12 @@ class ActuatorFade(Effect):
         0.0, unit='1/s', low=-0.05, high=0.05, scale=0.001, meaning='first rate at which it falls'
     )
     bend: float = parameter(
-        0.0, unit='1/s', low=-0.05, high=1.0, scale=0.01, meaning='rate at which the fall slackens'
+        0.0,
+        unit='1/s',
+        low=STEEPENING,
+        high=1.0,
+        scale=0.01,
+        meaning='rate at which the fall slackens (+) or steepens (-)',
     )
 
     @classmethod
