@@ -6,7 +6,7 @@ from math import nan
 import numpy as np
 import pytest
 
-from diffbot_sim.identification.selection.evidence import Evidence, informative_blocks
+from diffbot_sim.identification.selection.evidence import Evidence
 from diffbot_sim.identification.selection.trials import (
     NEEDLESS,
     SUPPORTED,
@@ -14,6 +14,7 @@ from diffbot_sim.identification.selection.trials import (
     judge,
     judge_again,
 )
+from diffbot_sim.identification.statistics.blocks import informative_blocks
 from diffbot_sim.identification.statistics.guards import elsewhere
 
 CLEAR = Evidence(60.0, 1e-15, 0.004, 0.05, 0.001, 0.001)

@@ -22,7 +22,7 @@ from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch, whole
 from diffbot_sim.identification.result import Difference, Estimate, RunCheck
-from diffbot_sim.identification.selection.evidence import BLOCKS, block_scores
+from diffbot_sim.identification.statistics.blocks import BLOCKS, block_scores
 from diffbot_sim.identification.statistics.norms import noise_floor, norm
 from diffbot_sim.physics.kinematics import wheel_speeds
 from diffbot_sim.records import Array, Run

@@ -9,7 +9,7 @@ from scipy import stats
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import GAIN_LIMITS, Fit
 from diffbot_sim.identification.result import Estimate
-from diffbot_sim.identification.selection.evidence import BLOCKS, jackknife
+from diffbot_sim.identification.statistics.blocks import BLOCKS, jackknife
 from diffbot_sim.records import Array
 
 LEVEL = 0.95
@@ -28,7 +28,9 @@ NEAR_BOUND = 1e-3
 
 def estimates(fit: Fit) -> dict[str, Estimate]:
     """Return every fitted parameter by its name, with its 95 % interval."""
-    found = estimates_at(fit.space, fit.u, jackknife(fit))
+    found = estimates_at(
+        fit.space, fit.u, jackknife(fit.jacobian, fit.whitened, fit.prior_information)
+    )
     for index in fit.space.shapes:
         coordinate = fit.space.coordinates[index]
         profile, best = _Profile(fit, index), float(fit.u[index])

@@ -17,8 +17,8 @@ from diffbot_sim.identification.fitting.fit import (
 from diffbot_sim.identification.free_forms.bases import UNIT_SHARE, Basis
 from diffbot_sim.identification.free_forms.variables import VARIABLES
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.selection.evidence import sandwich, wald_p
 from diffbot_sim.identification.selection.screening import Screen
+from diffbot_sim.identification.statistics.blocks import sandwich, wald_p
 from diffbot_sim.identification.statistics.gains import THRICE_CHANCE, folds_chance
 from diffbot_sim.identification.statistics.memory import fall_of_deviance
 from diffbot_sim.identification.statistics.minimisation import Prior, derivatives, minimise

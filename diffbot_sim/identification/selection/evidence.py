@@ -12,18 +12,21 @@ from diffbot_sim.identification.fitting.fit import Fit, whitened
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.statistics.blocks import (
+    informative_blocks,
+    sandwich,
+    wald_p,
+)
 from diffbot_sim.identification.statistics.gains import block_gain, folds_chance
 from diffbot_sim.identification.statistics.guards import AGAINST, best_look, elsewhere
 from diffbot_sim.identification.statistics.memory import fall_of_deviance, falls_beyond_past
 from diffbot_sim.identification.statistics.projection import apart
-from diffbot_sim.identification.statistics.robust import huber, influence
+from diffbot_sim.identification.statistics.robust import huber
 from diffbot_sim.records import Array
 
 # Errors of counts take back more of the last one than this; by such a share they may weigh more,
 # while they are better foreseen, and be no worse.
 COUNTED, MUCH_LARGER = -0.25, 0.05
-# Blocks that count as independent; each is much longer than any correlation of innovations.
-BLOCKS = 40
 # With fewer degrees of freedom the spread over blocks is no measure of chance.
 FEWEST = 8
 
@@ -193,39 +196,6 @@ def beside_others(
     return apart(fit.whitened, free, jacobian[:, amounts], departure)
 
 
-def sandwich(jacobian: Array, errors: Array, known: Array) -> Array:
-    """Return the block-robust covariance of a least-squares fit.
-
-    known: what a weak prior knows of each coordinate, the inverse variances, shape (p,).
-    """
-    bread = np.linalg.pinv(jacobian.T @ jacobian + np.diag(known))
-    scores = block_scores(jacobian, errors)
-    return np.asarray(bread @ (scores.T @ scores * BLOCKS / (BLOCKS - 1)) @ bread)
-
-
-def jackknife(fit: Fit) -> Array:
-    """Return the covariance of (u, gains) from fits that lack a block each, to first order.
-
-    Shape (p, p). Unlike the sandwich it does not shrink as parameters use up the blocks: CR3 of
-    MacKinnon, Nielsen, Webb (2023). What one block alone tells is wide. What none tells was
-    guessed, and is as uncertain as the guess: the prior adds its own share.
-    """
-    jacobian, prior = fit.jacobian, np.diag(fit.prior_information)
-    parts = [np.tensordot(j, j, ((0, 1), (0, 1))) for j in np.array_split(jacobian, BLOCKS)]
-    whole = sum(parts, prior)
-    scores = block_scores(jacobian, fit.whitened)
-    moved = [np.linalg.solve(whole - p, s) for p, s in zip(parts, scores, strict=True)]
-    bread = np.linalg.inv(whole)
-    guessed = bread @ prior @ bread
-    return np.asarray(np.transpose(moved) @ moved * (BLOCKS - 1) / BLOCKS + guessed)
-
-
-def block_scores(jacobian: Array, errors: Array) -> Array:
-    """Return J'e of each block, shape (BLOCKS, p): jacobian (n, ..., p), errors (n, ...)."""
-    parts = (np.array_split(values, BLOCKS) for values in (jacobian, influence(errors)))
-    return np.array([np.tensordot(e, j, e.ndim) for j, e in zip(*parts, strict=True)])
-
-
 def wald(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
     """Return the block-robust p-value of some amounts being at their prior (neutral).
 
@@ -257,24 +227,3 @@ def _known_to_few(fit: Fit, amounts: Sequence[int]) -> bool:
     """Say whether too few blocks know of some amounts to tell what is chance."""
     jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
     return informative_blocks(jacobian[:, amounts]) < len(amounts) + FEWEST
-
-
-def informative_blocks(sensitivity: Array) -> float:
-    """Return how many blocks carry what is known of the columns, the richest column deciding.
-
-    A few seconds of a run may hold all of it; then a spread over blocks is worth little. What a
-    tenth of a block exceeds counts, since who drives steadily shows little of a mass most of the
-    time: one stop, a sample early or late, must not outweigh all the rest.
-    """
-    parts = np.array_split(np.abs(sensitivity), BLOCKS)
-    weights = np.array([np.quantile(part, 0.9, axis=0) for part in parts]) + 1e-30
-    return float(np.max(weights.sum(axis=0) ** 2 / np.sum(weights**2, axis=0)))
-
-
-def wald_p(departure: Array, spread: Array, blocks: float = BLOCKS) -> float:
-    """Return the p-value of a departure whose covariance comes from so many blocks."""
-    count = len(departure)
-    if blocks < count + 1.0:
-        return 1.0
-    w = float(departure @ np.linalg.pinv(spread) @ departure)
-    return float(stats.f.sf(w / count, count, blocks - count))
