@@ -12,11 +12,7 @@ from diffbot_sim.identification.fitting.fit import Fit, whitened
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.statistics.blocks import (
-    informative_blocks,
-    sandwich,
-    wald_p,
-)
+from diffbot_sim.identification.statistics.blocks import informative_blocks, sandwich, wald_p
 from diffbot_sim.identification.statistics.gains import block_gain, folds_chance
 from diffbot_sim.identification.statistics.guards import AGAINST, best_look, elsewhere
 from diffbot_sim.identification.statistics.memory import fall_of_deviance, falls_beyond_past
