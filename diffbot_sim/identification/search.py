@@ -12,6 +12,7 @@ from diffbot_sim.identification.fitting.filtering import filter_behind, unfilter
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, fit_prediction, fit_simulation
 from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.fitting.shaking import shaken
+from diffbot_sim.identification.fitting.units import check_units
 from diffbot_sim.identification.found import Begun, Found
 from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
 from diffbot_sim.identification.later import sets_in_later
@@ -218,9 +219,11 @@ def _search(recordings: Recordings, question: Question) -> Found:
 def _begun(recordings: Recordings, question: Question) -> Begun:
     """Recalibrate the declared model, and fit the noise model to it."""
     fitted, held_out = recordings.divided
+    space = Space(question.declared, ())
     check(fitted, held_out)
+    check_units(space, fitted)
     question.progress('calibrating the declared model')
-    recalibrated = calibrate(Space(question.declared, ()), fitted)
+    recalibrated = calibrate(space, fitted)
     fitted = restarted(recalibrated.model, fitted, MAX_STEP)
     question.progress('fitting the noise model')
     near = fit_prediction(recalibrated.space, fitted, recalibrated.u, FIRST_GAINS)

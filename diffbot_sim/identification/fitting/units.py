@@ -1,0 +1,46 @@
+"""Whether mass and inertia are declared in their units: no fit goes as far as from g to kg."""
+
+from math import log
+
+import numpy as np
+
+from diffbot_sim.errors import DataError
+from diffbot_sim.identification.fitting.coordinates import FREE_OF_ROBOT, Space
+from diffbot_sim.identification.fitting.fit import whitened
+from diffbot_sim.identification.fitting.predictor import NO_GAIN
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.records import Array
+
+# What a number in another unit is wrong by.
+MISTAKES = (1e3, 1e-3)
+# It is a mistake if without it less than this share is left of the motion, and of the error.
+LEFT = 0.5
+
+
+def check_units(space: Space, stretches: tuple[Stretch, ...]) -> None:
+    """Refuse a mass, or an inertia, that moves as the runs do only a thousandfold: DataError."""
+    # Around its mean: that is all that a body leaves which is too heavy to change its speed.
+    motion = np.concatenate([stretch.twist[stretch.used > 0] for stretch in stretches]).std(axis=0)
+
+    def errors(point: Array) -> Array:
+        error = whitened(stretches, space.model(point), NO_GAIN, np.ones(2))
+        return np.asarray(np.sqrt(np.mean(error**2, axis=0)))
+
+    most = LEFT * np.minimum(motion, errors(space.prior()))
+    # Mass shows in the speed, inertia in the turn rate.
+    for axis, name in enumerate(FREE_OF_ROBOT):
+        index = [coordinate.name for coordinate in space.nominal].index(name)
+        for mistake in MISTAKES:
+            point = space.prior()
+            point[index] += log(mistake)
+            if errors(point)[axis] < most[axis]:
+                _refuse(space, index, mistake)
+
+
+def _refuse(space: Space, index: int, mistake: float) -> None:
+    wrong = space.nominal[index]
+    declared = wrong.value(wrong.prior)
+    raise DataError(
+        f'robot.{wrong.name} is declared as {declared:g} {wrong.unit}, and the runs move as with '
+        f'{mistake * declared:g}: is that another unit? Declare it in {wrong.unit}.'
+    )
