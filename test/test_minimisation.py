@@ -25,6 +25,11 @@ def test_fit_goes_on_to_the_minimum_though_the_scale_has_settled() -> None:
     assert short == pytest.approx(long, abs=0.2)  # a third of what the noise leaves open
 
 
+def test_start_far_beyond_bounds_is_brought_within() -> None:
+    point, _ = minimise(valley, np.full(2, 1e12), VAGUE, FAR, evaluations=3, rounds=1)
+    assert np.all((FAR[0] <= point) & (point <= FAR[1]))
+
+
 def test_no_point_is_asked_for_twice() -> None:
     asked = []
 

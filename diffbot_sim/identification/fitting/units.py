@@ -11,14 +11,14 @@ from diffbot_sim.identification.fitting.predictor import NO_GAIN
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.records import Array
 
-# What a number in another unit is wrong by.
-MISTAKES = (1e3, 1e-3)
+# Powers of ten that a number in another unit may be wrong by: g, kg·cm².
+MISTAKES = (-4, -3, 3, 4)
 # It is a mistake if without it less than this share is left of the motion, and of the error.
 LEFT = 0.5
 
 
 def check_units(space: Space, stretches: tuple[Stretch, ...]) -> None:
-    """Refuse a mass, or an inertia, that moves as the runs do only a thousandfold: DataError."""
+    """Refuse a mass, or an inertia, that moves as the runs do in another unit only: DataError."""
     # Around its mean: that is all that a body leaves which is too heavy to change its speed.
     motion = np.concatenate([stretch.twist[stretch.used > 0] for stretch in stretches]).std(axis=0)
 
@@ -30,17 +30,23 @@ def check_units(space: Space, stretches: tuple[Stretch, ...]) -> None:
     # Mass shows in the speed, inertia in the turn rate.
     for axis, name in enumerate(FREE_OF_ROBOT):
         index = [coordinate.name for coordinate in space.nominal].index(name)
-        for mistake in MISTAKES:
-            point = space.prior()
-            point[index] += log(mistake)
-            if errors(point)[axis] < most[axis]:
-                _refuse(space, index, mistake)
+        points = [_mistaken(space, index, mistake) for mistake in MISTAKES]
+        nearest = min(points, key=lambda point: float(errors(point)[axis]))
+        if errors(nearest)[axis] < most[axis]:
+            _refuse(space, index, nearest)
 
 
-def _refuse(space: Space, index: int, mistake: float) -> None:
+def _mistaken(space: Space, index: int, mistake: int) -> Array:
+    """Return what was declared, one number of it times a power of ten."""
+    point = space.prior()
+    point[index] += mistake * log(10.0)
+    return point
+
+
+def _refuse(space: Space, index: int, nearest: Array) -> None:
     wrong = space.nominal[index]
-    declared = wrong.value(wrong.prior)
+    declared, moves = (wrong.value(float(at[index])) for at in (space.prior(), nearest))
     raise DataError(
         f'robot.{wrong.name} is declared as {declared:g} {wrong.unit}, and the runs move as with '
-        f'{mistake * declared:g}: is that another unit? Declare it in {wrong.unit}.'
+        f'{moves:g}: is that another unit? Declare it in {wrong.unit}.'
     )

@@ -89,7 +89,7 @@ def minimise(
 ) -> tuple[Array, Array]:
     """Alternate robust least squares and the scale of the errors; return point and scale."""
     low, high = bounds
-    margin = 1e-9 * np.maximum(1.0, np.abs(start))
+    margin = 1e-9 * np.maximum(1.0, np.abs(np.clip(start, low, high)))
     point, known = np.clip(start, low + margin, high - margin), _Remembered(errors, bounds)
     sigma = _scale(known.errors(point))
     for _ in range(rounds):
