@@ -45,7 +45,7 @@ def identify(
 
     validate: runs for the before/after errors; without them the last part of each run is held
     out. kinds: the effects to try, by default the whole library. Raises DataError where the
-    runs are too short or do not move.
+    runs are too short or do not move, or the declared mass or inertia is in another unit.
     """
     given = Recordings(tuple(runs), tuple(validate))
     recordings = given.each(unbiased)

@@ -33,6 +33,7 @@ from diffbot_sim.identification.recordings.noiseless import (
 )
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
+from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.stepwise import select
 from diffbot_sim.identification.selection.trials import Progress
 from diffbot_sim.identification.simulating import is_integrators, without_worsening
@@ -61,9 +62,13 @@ def search(
     Asks, too, whether twists or forces are stamped late, and what begins where runs are held out.
     What is left of recordings without noise may be the integrator of a simulator, and hide what
     is missing: then they are searched again as a good odometry would have told them.
-    Raises DataError where the runs are too short or do not move.
+    Raises DataError where the runs are too short or do not move, or the declared mass or inertia
+    is in another unit.
     """
     question = Question(declared, kinds, progress)
+    fitted, _ = _divided(recordings)
+    # What is declared stays the same, however the runs are taken or divided.
+    check_units(Space(declared, ()), fitted)
     found = _answered(recordings, question)
     noise = odometry_noise(declared.half_separation)
     if not is_integrators(found, noise):
@@ -216,14 +221,18 @@ def _search(recordings: Recordings, question: Question) -> Found:
     return _found(_begun(recordings, question), question)
 
 
+def _divided(recordings: Recordings) -> tuple[tuple[Stretch, ...], tuple[Stretch, ...]]:
+    """Return what is fitted and what is held out, if anything follows from these."""
+    fitted, held_out = recordings.divided
+    check(fitted, held_out)
+    return fitted, held_out
+
+
 def _begun(recordings: Recordings, question: Question) -> Begun:
     """Recalibrate the declared model, and fit the noise model to it."""
-    fitted, held_out = recordings.divided
-    space = Space(question.declared, ())
-    check(fitted, held_out)
-    check_units(space, fitted)
+    fitted, held_out = _divided(recordings)
     question.progress('calibrating the declared model')
-    recalibrated = calibrate(space, fitted)
+    recalibrated = calibrate(Space(question.declared, ()), fitted)
     fitted = restarted(recalibrated.model, fitted, MAX_STEP)
     question.progress('fitting the noise model')
     near = fit_prediction(recalibrated.space, fitted, recalibrated.u, FIRST_GAINS)

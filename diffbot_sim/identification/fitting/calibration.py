@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 
 from diffbot_sim.identification.fitting.coordinates import Space
-from diffbot_sim.identification.fitting.fit import Fit, fit_simulation, whitened
+from diffbot_sim.identification.fitting.fit import UNIT, Fit, fit_simulation, whitened
 from diffbot_sim.identification.fitting.predictor import NO_GAIN
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.robust import huber
@@ -20,11 +20,16 @@ FOLLOWED, SHORT = 3, 8
 def calibrate(space: Space, stretches: tuple[Stretch, ...]) -> Fit:
     """Fit by simulation error; the error surface has local minima, hence the several starts."""
     starts = _starts(space)
-    errors = [_errors(space, stretches, start) for start in starts]
+    errors = [simulation_errors(space, stretches, start) for start in starts]
     scale = np.maximum(np.median([np.mean(np.abs(e), axis=0) for e in errors], axis=0), 1e-12)
     order = np.argsort([float(huber(e / scale).sum()) for e in errors])[:FOLLOWED]
     followed = [fit_simulation(space, stretches, starts[index], SHORT) for index in order]
     return fit_simulation(space, stretches, min(followed, key=simulation_error).u)
+
+
+def simulation_errors(space: Space, stretches: tuple[Stretch, ...], point: Array) -> Array:
+    """Return the errors of a simulation in speed [m/s] and turn rate [rad/s], shape (n, 2)."""
+    return whitened(stretches, space.model(point), NO_GAIN, UNIT)
 
 
 def simulation_error(fit: Fit) -> float:
@@ -44,7 +49,3 @@ def _starts(space: Space) -> list[Array]:
                 start[index] *= friction
         starts.append(start)
     return starts
-
-
-def _errors(space: Space, stretches: tuple[Stretch, ...], point: Array) -> Array:
-    return whitened(stretches, space.model(point), NO_GAIN, np.ones(2))

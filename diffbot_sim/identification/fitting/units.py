@@ -5,9 +5,8 @@ from math import log
 import numpy as np
 
 from diffbot_sim.errors import DataError
+from diffbot_sim.identification.fitting.calibration import simulation_errors
 from diffbot_sim.identification.fitting.coordinates import FREE_OF_ROBOT, Space
-from diffbot_sim.identification.fitting.fit import whitened
-from diffbot_sim.identification.fitting.predictor import NO_GAIN
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.records import Array
 
@@ -23,17 +22,17 @@ def check_units(space: Space, stretches: tuple[Stretch, ...]) -> None:
     motion = np.concatenate([stretch.twist[stretch.used > 0] for stretch in stretches]).std(axis=0)
 
     def errors(point: Array) -> Array:
-        error = whitened(stretches, space.model(point), NO_GAIN, np.ones(2))
+        error = simulation_errors(space, stretches, point)
         return np.asarray(np.sqrt(np.mean(error**2, axis=0)))
 
     most = LEFT * np.minimum(motion, errors(space.prior()))
-    # Mass shows in the speed, inertia in the turn rate.
-    for axis, name in enumerate(FREE_OF_ROBOT):
-        index = [coordinate.name for coordinate in space.nominal].index(name)
-        points = [_mistaken(space, index, mistake) for mistake in MISTAKES]
-        nearest = min(points, key=lambda point: float(errors(point)[axis]))
-        if errors(nearest)[axis] < most[axis]:
-            _refuse(space, index, nearest)
+    # The mass, which shows in the speed, comes first, then the inertia, in the turn rate.
+    for axis in range(len(FREE_OF_ROBOT)):
+        points = [_mistaken(space, axis, mistake) for mistake in MISTAKES]
+        left = [errors(point)[axis] for point in points]
+        nearest = int(np.argmin(left))
+        if left[nearest] < most[axis]:
+            _refuse(space, axis, points[nearest])
 
 
 def _mistaken(space: Space, index: int, mistake: int) -> Array:

@@ -89,8 +89,9 @@ def minimise(
 ) -> tuple[Array, Array]:
     """Alternate robust least squares and the scale of the errors; return point and scale."""
     low, high = bounds
-    margin = 1e-9 * np.maximum(1.0, np.abs(np.clip(start, low, high)))
-    point, known = np.clip(start, low + margin, high - margin), _Remembered(errors, bounds)
+    inside, known = np.clip(start, low, high), _Remembered(errors, bounds)
+    margin = 1e-9 * np.maximum(1.0, np.abs(inside))
+    point = np.clip(inside, low + margin, high - margin)
     sigma = _scale(known.errors(point))
     for _ in range(rounds):
         point, converged = _least_squares(known, point, prior, bounds, sigma, evaluations)
