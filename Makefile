@@ -21,8 +21,8 @@ venv: $(VENV)/.ready ## make the environment that all else runs in
 demo: $(VENV)/.ready ## drive, record, find the hidden effect, drive again; OUT=folder SEED=number
 	$(VENV)/bin/python -m diffbot_sim demo --out $(OUT) $(if $(SEED),--seed $(SEED))
 
-test: lint ## lint, then the whole test suite
-	$(VENV)/bin/python -m pytest
+test: lint ## lint, then the whole test suite, two files at a time
+	$(VENV)/bin/python -m pytest -n 2 --dist loadfile
 
 lint: $(VENV)/.ready ## format, style, types
 	$(VENV)/bin/ruff format --check .

@@ -47,7 +47,7 @@ setup(
         'rosbags',
         'scipy',
     ],
-    extras_require={'test': ['pytest', 'pytest-timeout', 'hypothesis', 'mujoco']},
+    extras_require={'test': ['pytest', 'pytest-timeout', 'pytest-xdist', 'hypothesis', 'mujoco']},
     entry_points={
         'console_scripts': [f'{name} = {NAME}.entry_points:{name}' for name in COMMANDS],
     },

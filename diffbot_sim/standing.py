@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from diffbot_sim.records import Array, Run
+from diffbot_sim.records import Array, Odometry, Run
 
 # Without force, or counting nothing, a robot may be seen standing after so long [s]; so many
 # samples are asked.
@@ -20,6 +20,9 @@ MOST = 0.9
 CHANGED = 0.5
 # No gyro has a greater bias [rad/s]: who turns faster and counts nothing turns on the spot.
 GREATEST = 0.1
+
+# A pose that moves so far [m], or turns so far [rad], is not one of a robot that stands.
+MOVED, TURNED = 0.2, 0.5
 
 
 class Turning(NamedTuple):
@@ -40,7 +43,7 @@ NOTHING = Turning(0.0, 0.0)
 def turning(run: Run) -> Turning:
     """Return how odometry turns while the robot stands; nothing where that is not seen."""
     twist = run.odometry.twist
-    noise = np.median(np.abs(np.diff(twist, axis=0)), axis=0) * 1.4826 / np.sqrt(2.0)
+    noise = _noise(twist)
     reach = NOISE * noise + HARMLESS
     resting = _uncounted(run) & (np.abs(twist[:, 1]) < GREATEST)
     omega = twist[(_unpushed(run) | resting) & (np.abs(twist[:, 0]) < reach[0]), 1]
@@ -49,6 +52,30 @@ def turning(run: Run) -> Turning:
     told = Turning(float(np.median(omega)), float(noise[1] / np.sqrt(len(omega))))
     agrees = np.mean(np.abs(omega - told.rate) < reach[1]) > MOST
     return told if agrees and _is_steady(omega, told) else NOTHING
+
+
+def is_moving(twist: Array) -> bool:
+    """Say whether twists, shape (k, 2), are those of a robot that moves, beyond noise and bias."""
+    reach = NOISE * _noise(twist) + [HARMLESS, GREATEST]
+    return bool(np.any(np.sqrt(np.mean(twist**2, axis=0)) > reach))
+
+
+def _noise(twist: Array) -> Array:
+    """Return the noise of twists that mostly hardly change, shape (2,)."""
+    changes = np.abs(np.diff(twist, axis=0))
+    return np.asarray(np.median(changes, axis=0) * 1.4826 / np.sqrt(2.0))
+
+
+def unfilled(odometry: Odometry) -> tuple[bool, bool]:
+    """Say of v, and of ω, whether it is 0 throughout though the pose moves: nobody filled it."""
+    if odometry.pose is None:
+        return False, False
+    x, y, yaw = np.ptp(odometry.pose, axis=0)
+    moved = (max(x, y) > MOVED, yaw > TURNED)
+    v, omega = (
+        bool(m and not told.any()) for m, told in zip(moved, odometry.twist.T, strict=True)
+    )
+    return v, omega
 
 
 def _is_steady(omega: Array, told: Turning) -> bool:

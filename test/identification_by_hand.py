@@ -49,6 +49,10 @@ def found(name: str = 'quadratic_drag', with_pose: bool = True) -> Identificatio
         identified=Model().with_effect(_guess(library()[name])),
         comparisons=(comparison(0.03, with_pose), comparison(0.02, with_pose, 'second drive')),
         runs=(check('first drive'), check('second drive')),
+        nominal_beside={
+            'robot.mass': Estimate(10.011, 9.967, 10.055, 'kg'),
+            'friction.mu_viscous': Estimate(0.0402, 0.0371, 0.0433, 's/m'),
+        },
         advice=('turn on the spot: yaw friction leaves no trace in this drive',),
     )
 

@@ -83,7 +83,7 @@ class Robot:
         self.heard: dict[str, list[Any]] = {'odom': []}
         self.node.create_subscription(Odometry, 'odom', self.heard['odom'].append, DEPTH)
         self._forces = {
-            side: self.node.create_publisher(WrenchStamped, f'{side}_wheel/force_cmd', 10)
+            side: self.node.create_publisher(WrenchStamped, f'{side}_wheel/force_cmd', DEPTH)
             for side in ('left', 'right')
         }
 

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from drives import LEFT, ODOM, RIGHT, START, TIME, drive, messages, stamped
 
 from diffbot_sim.bags import Topics, read_run, write_run
@@ -107,6 +108,19 @@ def test_a_few_messages_with_nan_are_left_out_and_told(tmp_path):
     assert found.notes == (f'drive: left out 1 messages of {RIGHT} that are not finite',)
 
 
+@pytest.mark.parametrize('absurd', [1e4, -1e30])
+def test_a_number_out_of_all_proportion_is_left_out_and_told(tmp_path, absurd):
+    items = messages(drive())
+    items[150] = items[150]._replace(content=wrench(items[150].stamp, '', absurd))
+    write_bag(tmp_path / 'drive', items)
+    found = read_run(tmp_path / 'drive')
+    assert np.abs(found.run.commands.force).max() <= 1.0
+    assert found.notes == (
+        f'drive: left out 1 messages of {RIGHT} whose numbers are more than 100 times as large '
+        'as nearly all others',
+    )
+
+
 def test_holes_in_the_odometry_are_told(tmp_path):
     late = [m._replace(stamp=m.stamp + 4 * 10**9) for m in messages(drive())[150:]]
     late = [stamped(message, message.stamp) for message in late]
@@ -126,14 +140,6 @@ def test_a_pose_that_nobody_filled_is_no_pose(tmp_path):
         odom = replace(drive().odometry, pose=pose)
         write_run(tmp_path / name, replace(drive(), odometry=odom), START)
         assert read_run(tmp_path / name).run.odometry.pose is None
-
-
-def test_forces_that_end_long_before_the_odometry_are_told(tmp_path):
-    slow = [stamped(m, START + 10 * (m.stamp - START)) for m in messages(drive())]
-    write_bag(tmp_path / 'drive', [m for i, m in enumerate(slow) if m.topic != LEFT or i < 150])
-    assert read_run(tmp_path / 'drive').notes == (
-        f'drive: {LEFT} ends 5.0 s before the odometry; its last force is held',
-    )
 
 
 def test_forces_that_fall_silent_while_the_robot_moves_are_told(tmp_path):

@@ -71,6 +71,17 @@ def test_a_named_topic_that_is_not_there_is_told(tmp_path):
     assert 'no messages on /odometry/filtered. The bag holds ' in text
 
 
+def test_one_topic_for_both_wheels_is_refused(tmp_path):
+    write_run(tmp_path / 'drive', drive())
+    assert f'{LEFT} is given for both wheels' in told(tmp_path / 'drive', Topics(right_force=LEFT))
+
+
+def test_a_folder_of_bags_is_no_bag(tmp_path):
+    for name in ('first', 'second'):
+        write_run(tmp_path / name, drive())
+    assert 'a folder of bags. Give each: first, second' in told(tmp_path)
+
+
 def test_short_recordings_are_refused(tmp_path):
     assert '16 odometry messages; at least 50' in told_of(tmp_path, messages(drive())[:50])
 

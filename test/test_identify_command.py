@@ -46,8 +46,8 @@ def test_runs_and_validation_reach_identification_apart(bag, monkeypatch):
     monkeypatch.setattr(identify, 'save', lambda *results: None)
     monkeypatch.setattr(identify, 'print_summary', lambda result: None)
     others = [bag.parent / day / 'drive' for day in ('monday', 'tuesday')]
-    for other in others:
-        write_run(other, drive(), START)
+    for day, other in enumerate(others, 1):
+        write_run(other, drive(), START + day * 10**9)
     assert main([*words(bag), '--validate', *map(str, others)], 'identify') == 0
     ((runs, validate),) = seen
     assert [run.name for run in runs] == ['drive_1']
@@ -62,6 +62,13 @@ def test_names_stay_apart_whatever_they_were(bag):
 def test_bag_is_not_taken_twice(bag, capsys):
     assert main([*words(bag), '--validate', str(bag)], 'identify') == 1
     assert 'given twice' in capsys.readouterr().err
+
+
+def test_copy_of_a_bag_is_not_taken_beside_it(bag, capsys):
+    copy = bag.parent / 'copy'
+    write_run(copy, drive(), START)
+    assert main([*words(bag), '--validate', str(copy)], 'identify') == 1
+    assert f'{copy}: holds the drive of {bag}' in capsys.readouterr().err
 
 
 def test_parameter_file_is_not_overwritten_by_the_result(bag, capsys):

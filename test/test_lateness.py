@@ -11,7 +11,7 @@ from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.leading import acted_before
 from diffbot_sim.identification.older import Ages
-from diffbot_sim.identification.recordings.lateness import lag_behind_pose, timely, timing
+from diffbot_sim.identification.recordings.lateness import filled, lag_behind_pose, timely, timing
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
@@ -53,6 +53,26 @@ def test_twist_of_the_time_of_its_pose_is_taken_as_it_is() -> None:
     run = driven(Model())
     assert timely(run) is run
     assert timing(run, timely(run)) is None
+
+
+@pytest.mark.parametrize('told', [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
+def test_twist_that_nobody_filled_is_taken_from_the_pose(told: tuple[float, float]) -> None:
+    run = driven(Model())
+    bare = replace(run, odometry=replace(run.odometry, twist=run.odometry.twist * told))
+    taken = filled(bare).odometry
+    assert taken.means == (True, True)
+    truth = np.column_stack(
+        [np.interp(taken.time, run.odometry.time, x) for x in run.odometry.twist.T]
+    )
+    assert np.all(np.std(taken.twist - truth, axis=0) < 0.1 * np.std(truth, axis=0))
+
+
+def test_twist_of_a_robot_that_stands_or_turns_on_the_spot_is_filled() -> None:
+    run = driven(Model())
+    pose = run.odometry.pose * [0.0, 0.0, 1.0]
+    spins = replace(run.odometry, twist=run.odometry.twist * [0.0, 1.0], pose=pose)
+    assert filled(replace(run, odometry=spins)).odometry is spins
+    assert filled(run) is run
 
 
 @pytest.mark.parametrize('seed', [1, 2, 3])

@@ -16,6 +16,7 @@ from rich.console import Console
 
 from diffbot_sim.identification.result import Bias, ErrorNorm, Estimate, Identification, Timing
 from diffbot_sim.physics.effects import laws, library
+from diffbot_sim.physics.model import Model
 from diffbot_sim.report import figures, print_summary, sentences, write_report
 from diffbot_sim.report.dependence import binned
 from diffbot_sim.report.json_report import json_text
@@ -259,6 +260,44 @@ def test_verdict_tells_of_the_axis_that_improved() -> None:
     turning = replace(by_hand.errors(0.0041), recalibrated=by_hand.ErrorNorm(0.0041, 0.2))
     said = sentences.verdict(replace(by_hand.found('yaw_friction'), errors=turning))
     assert 'turn-rate error falls from 200 mrad/s to 8.10 mrad/s' in said
+
+
+def test_verdict_tells_of_the_axis_that_is_wrong_where_none_improved() -> None:
+    spins = by_hand.ErrorNorm(0.0041, 0.7)
+    wrong = replace(by_hand.errors(0.0041), recalibrated=spins, with_effects=spins)
+    said = sentences.verdict(replace(by_hand.unexplained(), errors=wrong))
+    assert 'held-out turn-rate error 700 mrad/s; noise floor 8.00 mrad/s' in said
+
+
+@pytest.mark.parametrize(('factors', 'told'), [((0.1, 0.11), True), ((0.1, 1.0), False)])
+def test_forces_in_another_unit_are_suspected(factors: tuple[float, float], told: bool) -> None:
+    robot = Model().robot
+    mass, inertia = factors[0] * robot.mass, factors[1] * robot.inertia
+    scaled = Model(replace(robot, mass=mass, inertia=inertia))
+    result = replace(by_hand.nothing_missing(), identified=scaled)
+    assert ('as where forces are told in another unit' in page_text(result)) == told
+
+
+def test_declared_effect_that_is_not_there_is_told_at_once() -> None:
+    result = replace(by_hand.nothing_missing(), contradicted=('slope',))
+    said = 'slope is declared, and the recordings contradict it: remove it.'
+    assert 'Nothing missing, but the declared slope is contradicted: ' in sentences.verdict(result)
+    assert said in ' '.join(summary(result).split())
+    assert said in page_text(result)
+    assert json.loads(json_text(result))['contradicted'] == ['slope']
+
+
+def test_declared_effect_of_another_size_is_told_as_found() -> None:
+    result = replace(by_hand.found('slope'), contradicted=('slope',))
+    assert '; contradicted: the declared slope; ' in sentences.verdict(result)
+    assert sentences.of_declared(result)[0].endswith('it is found with other parameters.')
+
+
+def test_parameters_beside_the_effects_found_are_told() -> None:
+    nominal = json.loads(json_text(by_hand.found()))['nominal']
+    assert nominal['beside_effects']['robot.mass']['value'] == 10.011
+    assert '10.011 ± 0.044 kg' in page_text(by_hand.found())
+    assert 'with effects, 95' not in page_text(by_hand.nothing_missing())
 
 
 @pytest.mark.parametrize(('error', 'told'), [(0.0041, False), (0.04, True)])

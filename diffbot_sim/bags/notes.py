@@ -4,13 +4,12 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from diffbot_sim.bags.clock import leaps
 from diffbot_sim.bags.poses import is_filled
-from diffbot_sim.bags.series import NANOSECONDS, Ordered, Stamps
+from diffbot_sim.bags.series import ABSURD, NANOSECONDS, Ordered, Series, Stamps, silence
 from diffbot_sim.records import Run
-from diffbot_sim.standing import turning
+from diffbot_sim.standing import turning, unfilled
 
-# A topic has a hole where it is silent for longer than this [s], and than so many usual intervals.
-LONGEST_SILENCE, USUAL_SILENCES = 1.0, 10.0
 MOST = 5  # holes that are told one by one
 # What is rarer is told, not what is usual: a share of the messages.
 OFTEN = 0.01
@@ -29,15 +28,35 @@ def notes_on(usable: Mapping[str, Ordered], run: Run, start: int) -> Iterator[st
             continue
         held = [gap for gap in _silences(item) if _goes_on(odom, gap)]
         yield from _told(item, held, start, 'the last force is taken to be held')
-        yield from _beyond(item, odom)
     if run.odometry.pose is None and is_filled(odom):
         yield 'the poses never turn though the twists do; used the twists alone'
+    for name, empty in zip(('linear.x', 'angular.z'), unfilled(run.odometry), strict=True):
+        if empty:
+            yield (
+                f'twist.{name} of {odom.topic} is 0 throughout though the poses move; identify '
+                'takes the twists from the changes of the poses, nothing else does'
+            )
     yield from _of_standing(run)
+
+
+def notes_on_clock(series: Series) -> Iterator[str]:
+    """Yield a line for each time that the clock of a topic's stamps was set."""
+    for leap in leaps(series):
+        at = (series.received[leap.first] - series.received[0]) / NANOSECONDS
+        yield (
+            f'the stamps of {series.topic} leap by {leap.by / NANOSECONDS:+.3g} s after '
+            f'{at:.1f} s, its receipts do not; that was taken back'
+        )
 
 
 def _left_out(item: Ordered) -> Iterator[str]:
     if item.dropped:
         yield f'left out {item.dropped} messages of {item.topic} that are not finite'
+    if item.absurd:
+        yield (
+            f'left out {item.absurd} messages of {item.topic} whose numbers are more than '
+            f'{ABSURD:g} times as large as nearly all others'
+        )
     if item.repeated > OFTEN * len(item.stamp):
         many = len(item.stamp) + item.repeated
         yield (
@@ -48,9 +67,7 @@ def _left_out(item: Ordered) -> Iterator[str]:
 
 def _silences(item: Ordered) -> list[Stamps]:
     """Return the stamps around each time for which a topic is silent far longer than usual."""
-    steps = np.diff(item.stamp) / NANOSECONDS
-    usual = np.median(steps) if steps.size else 0.0
-    holes = np.flatnonzero(steps > max(LONGEST_SILENCE, USUAL_SILENCES * usual))
+    holes = np.flatnonzero(np.diff(item.stamp) > silence(item))
     return [item.stamp[i : i + 2] for i in holes]
 
 
@@ -68,16 +85,6 @@ def _told(item: Ordered, gaps: Sequence[Stamps], start: int, consequence: str) -
         )
         more = f' and {len(gaps) - MOST} more' if len(gaps) > MOST else ''
         yield f'{item.topic} has holes: {times}{more}; {consequence}'
-
-
-def _beyond(item: Ordered, odom: Ordered) -> Iterator[str]:
-    """Tell where forces begin after the odometry, or end before it."""
-    late = (item.stamp[0] - odom.stamp[0]) / NANOSECONDS
-    early = (odom.stamp[-1] - item.stamp[-1]) / NANOSECONDS
-    if late > LONGEST_SILENCE:
-        yield f'{item.topic} begins {late:.1f} s after the odometry; taken as 0 until then'
-    if early > LONGEST_SILENCE:
-        yield f'{item.topic} ends {early:.1f} s before the odometry; its last force is held'
 
 
 def _of_standing(run: Run) -> Iterator[str]:

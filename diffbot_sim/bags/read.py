@@ -6,7 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from diffbot_sim.bags.notes import notes_on
+from diffbot_sim.bags.clock import unset
+from diffbot_sim.bags.known import known
+from diffbot_sim.bags.notes import notes_on, notes_on_clock
 from diffbot_sim.bags.poses import pose_of, without_broken
 from diffbot_sim.bags.series import NANOSECONDS, Ordered, Series, Stamps, held, ordered
 from diffbot_sim.bags.storage import read_series
@@ -50,26 +52,36 @@ def read_run(path: str | Path, topics: Topics | None = None) -> RecordedRun:
 
 def _recorded(name: str, series: Mapping[str, Series]) -> RecordedRun:
     whole = without_broken(series['odom'])
-    without_poses = whole is not series['odom']
-    series = {**series, 'odom': whole}
-    # One clock for all three: times of receipt trail the stamps by an unknown delay.
-    by_header = all(item.has_stamps for item in series.values())
-    usable = {
-        role: ordered(item, item.stamped if by_header else item.received)
-        for role, item in series.items()
-    }
-    left, right, odom = usable['left_force'], usable['right_force'], usable['odom']
+    notes = [note for item in series.values() for note in notes_on_clock(item)]
+    if whole is not series['odom']:
+        notes.append('the poses hold NaN or infinity; used the twists alone')
+    usable, by_header = _usable({**series, 'odom': whole})
+    if not by_header:
+        notes.append('not all messages are stamped; used the times of receipt')
+    left, right = forces = usable['left_force'], usable['right_force']
     stamps = np.union1d(left.stamp, right.stamp)
-    _check_span(stamps, odom.stamp)
+    _check_overlap(stamps, usable['odom'].stamp)
+    odom, bounds = known(usable['odom'], forces)
+    _check_count(odom)
     start = int(min(stamps[0], odom.stamp[0]))
     force = np.column_stack([held(right, stamps), held(left, stamps)])
     run = Run(name, Commands(_seconds(stamps, start), force), _odometry(odom, start))
-    notes = list(notes_on(usable, run, start))
-    if not by_header:
-        notes.insert(0, 'not all messages are stamped; used the times of receipt')
-    if without_poses:
-        notes.insert(0, 'the poses hold NaN or infinity; used the twists alone')
+    notes += (*notes_on(usable, run, start), *bounds)
     return RecordedRun(run, start, tuple(f'{name}: {note}' for note in notes))
+
+
+def _usable(series: Mapping[str, Series]) -> tuple[dict[str, Ordered], bool]:
+    """Return what each topic held, by one clock, and whether that is the one of the stamps.
+
+    Times of receipt trail the stamps by an unknown delay: they serve for all or for none.
+    """
+    mended = {role: unset(item) for role, item in series.items()}
+    by_header = all(item.has_stamps for item in mended.values())
+    usable = {
+        role: ordered(item, item.stamped if by_header else item.received)
+        for role, item in mended.items()
+    }
+    return usable, by_header
 
 
 def _odometry(odom: Ordered, start: int) -> Odometry:
@@ -77,14 +89,20 @@ def _odometry(odom: Ordered, start: int) -> Odometry:
     return Odometry(time, np.ascontiguousarray(odom.values[:, :2]), pose_of(odom, time))
 
 
-def _check_span(force: Stamps, odom: Stamps) -> None:
-    if len(odom) < FEWEST:
-        raise BagError(f'{len(odom)} odometry messages; at least {FEWEST} are needed.')
+def _check_overlap(force: Stamps, odom: Stamps) -> None:
     if force[-1] < odom[0] or odom[-1] < force[0]:
         gap = (max(force[0], odom[0]) - min(force[-1], odom[-1])) / NANOSECONDS
         raise BagError(
             f'forces and odometry do not overlap in time, they are {gap:.3g} s apart. Were they '
             'stamped by different clocks? Give every node the same use_sim_time.'
+        )
+
+
+def _check_count(odom: Ordered) -> None:
+    if len(odom.stamp) < FEWEST:
+        raise BagError(
+            f'{len(odom.stamp)} odometry messages; at least {FEWEST} are needed while forces are '
+            'known.'
         )
 
 

@@ -15,6 +15,10 @@ NANOSECONDS = 1_000_000_000
 LONGEST_STEP_BACK = NANOSECONDS
 LONGEST_GAP = 3600 * NANOSECONDS
 MOST_UNUSABLE, MOST_REPEATED = 0.01, 0.5
+# A topic has a hole where it is silent for longer than this [s], and than so many usual intervals.
+LONGEST_SILENCE, USUAL_SILENCES = 1.0, 10.0
+# What is so many times as large as all but 1 % of what is not 0 is no measurement.
+ABSURD, ALL_BUT = 100.0, 0.99
 
 
 @dataclass(frozen=True)
@@ -22,13 +26,15 @@ class Series:
     """The messages of one topic.
 
     received, stamped: times of receipt and of the header [ns], shape (n,), in order of receipt.
-    values: shape (n, m).
+    values: shape (n, m); measured: of how many columns the numbers are those of motion or force,
+    not of a place, which may be anywhere.
     """
 
     topic: str
     received: Stamps
     stamped: Stamps
     values: Array
+    measured: int
 
     @property
     def has_stamps(self) -> bool:
@@ -40,32 +46,31 @@ class Series:
 class Ordered:
     """Usable messages: stamps [ns], shape (n,), increasing; values, shape (n, m), finite.
 
-    dropped, repeated: how many were left out because they were not finite, or because a later
-    one has their stamp.
+    dropped, absurd, repeated: how many were left out because they were not finite, or out of all
+    proportion, or because a later one has their stamp.
     """
 
     topic: str
     stamp: Stamps
     values: Array
     dropped: int
+    absurd: int
     repeated: int
 
 
 def ordered(series: Series, stamp: Stamps) -> Ordered:
-    """Sort by stamps of one clock; of equal stamps keep the last; leave out what is not finite.
+    """Sort by stamps of one clock; of equal stamps keep the last; leave out what is unusable.
 
+    That is what is not finite, and the few whose numbers are out of all proportion.
     Raises BagError when the clock jumps, most stamps are those of other messages, or more than
     1 % of the messages are not finite.
     """
     _check_clock(series.topic, stamp)
-    finite = np.isfinite(series.values).all(axis=1)
-    dropped = int(np.count_nonzero(~finite))
-    if dropped > MOST_UNUSABLE * len(stamp):
-        raise BagError(
-            f'{series.topic}: {dropped} of {len(stamp)} messages hold NaN or infinity, '
-            'which is too many to leave out. Mend their source and record again.'
-        )
-    stamp, values = stamp[finite], series.values[finite]
+    finite = np.asarray(np.isfinite(series.values).all(axis=1))
+    _check_finite(series.topic, finite)
+    sane = finite.copy()
+    sane[finite] = ~_absurd(series.values[finite, : series.measured])
+    stamp, values = stamp[sane], series.values[sane]
     order = np.argsort(stamp, kind='stable')
     last = np.append(np.diff(stamp[order]) > 0, True)
     repeated = int(np.count_nonzero(~last))
@@ -75,13 +80,41 @@ def ordered(series: Series, stamp: Stamps) -> Ordered:
             'its clock stands still. Stamp each message when it is measured, or leave the stamps '
             '0: then the times of receipt are used.'
         )
-    return Ordered(series.topic, stamp[order][last], values[order][last], dropped, repeated)
+    kept = order[last]
+    dropped, absurd = np.count_nonzero(~finite), np.count_nonzero(finite & ~sane)
+    return Ordered(series.topic, stamp[kept], values[kept], int(dropped), int(absurd), repeated)
+
+
+def silence(series: Ordered) -> float:
+    """Return for how long a topic must be silent to have a hole there, or an end [ns]."""
+    steps = np.diff(series.stamp)
+    usual = float(np.median(steps)) if steps.size else 0.0
+    return max(LONGEST_SILENCE * NANOSECONDS, USUAL_SILENCES * usual)
 
 
 def held(series: Ordered, stamps: Stamps) -> Array:
     """Return the first column at other stamps, each value held until the next, 0 before all."""
     index = np.searchsorted(series.stamp, stamps, side='right') - 1
     return np.where(index >= 0, series.values[index, 0], 0.0)
+
+
+def _check_finite(topic: str, finite: NDArray[np.bool_]) -> None:
+    dropped = np.count_nonzero(~finite)
+    if dropped > MOST_UNUSABLE * len(finite):
+        raise BagError(
+            f'{topic}: {dropped} of {len(finite)} messages hold NaN or infinity, '
+            'which is too many to leave out. Mend their source and record again.'
+        )
+
+
+def _absurd(values: Array) -> NDArray[np.bool_]:
+    """Return which rows hold a number out of all proportion to those of the others."""
+    sizes = np.abs(values)
+    proportion = [
+        np.quantile(size[size > 0.0], ALL_BUT, method='lower') if size.any() else np.inf
+        for size in sizes.T
+    ]
+    return np.asarray(np.any(sizes > ABSURD * np.array(proportion), axis=1))
 
 
 def _check_clock(topic: str, stamp: Stamps) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from rosbags.rosbag2 import Reader
 
+from diffbot_sim.bags.folder import METADATA
 from diffbot_sim.bags.messages import STORE, odometry_row, wrench_row
 from diffbot_sim.bags.series import Series
 from diffbot_sim.bags.topics import Topics, absolute, find_topics
@@ -17,6 +18,8 @@ STORAGE = ('.mcap', '.db3')
 FORM = 'A bag is a folder that holds metadata.yaml, or one .mcap or .db3 file.'
 MEND = "Save what can be read with 'diffbot_sim recover BAG --out DIR'."
 ROWS = {'left_force': wrench_row, 'right_force': wrench_row, 'odom': odometry_row}
+# How many numbers of a row are a force, or a twist; the others of odometry are a place.
+MEASURED = {'left_force': 1, 'right_force': 1, 'odom': 2}
 
 
 def read_series(path: Path, topics: Topics) -> dict[str, Series]:
@@ -42,7 +45,8 @@ def _read(reader: Any, topic: str, role: str) -> Series:
         received.append(time)
         stamped.append(stamp.sec * 10**9 + stamp.nanosec)
         rows.append(ROWS[role](message))
-    return Series(topic, np.array(received), np.array(stamped), np.array(rows, dtype=float))
+    values = np.array(rows, dtype=float)
+    return Series(topic, np.array(received), np.array(stamped), values, MEASURED[role])
 
 
 @contextmanager
@@ -58,13 +62,21 @@ def opened(path: Path) -> Iterator[Any]:
         raise BagError(f'damaged, or cut off while it was recorded ({detail}). {MEND}') from error
 
 
+def check_single(path: Path) -> None:
+    """Raise BagError when a path is a folder of several bags, or of one: which, is to be said."""
+    bags = sorted(file.parent.name for file in path.glob(f'*/{METADATA}'))
+    if bags:
+        raise BagError(f'a folder of bags. Give each: {", ".join(bags)}.')
+
+
 def check_place(path: Path) -> None:
     """Raise BagError when there is no bag at a path."""
     if not path.exists():
         raise BagError('there is no such bag.')
     if path.is_file() and path.suffix not in STORAGE:
         raise BagError(f'not a bag. {FORM}')
-    if path.is_dir() and not (path / 'metadata.yaml').exists():
+    if path.is_dir() and not (path / METADATA).exists():
+        check_single(path)
         if any(file.suffix in STORAGE for file in path.rglob('*')):
             raise BagError(f'no metadata.yaml: the recording was cut off. {MEND}')
         raise BagError(f'not a bag. {FORM}')

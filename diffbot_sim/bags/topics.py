@@ -59,7 +59,7 @@ def find_topics(there: Mapping[str, str], given: Topics) -> dict[str, str]:
             f'several robots: {", ".join(name or "/" for name in whole)}. '
             'Name the topics of one with --left-force, --right-force and --odom.'
         )
-    _check_types(found[0], there)
+    _check_topics(found[0], there)
     return found[0]
 
 
@@ -86,7 +86,12 @@ def _missing(robots: list[dict[str, str]], there: Mapping[str, str]) -> str:
     return f'{fault}. Name the topics with {options}. {_inventory(there)}'
 
 
-def _check_types(topics: Mapping[str, str], there: Mapping[str, str]) -> None:
+def _check_topics(topics: Mapping[str, str], there: Mapping[str, str]) -> None:
+    if topics['left_force'] == topics['right_force']:
+        raise BagError(
+            f'{topics["left_force"]} is given for both wheels. Name the topic of each with '
+            '--left-force and --right-force.'
+        )
     for role, topic in topics.items():
         if topic not in there:
             raise BagError(f'no messages on {topic}. {_inventory(there)}')

@@ -56,7 +56,9 @@ def run(arguments: Namespace) -> None:
     check_replaceable(arguments.out / RESIDUAL)
     _check_apart(bags)
     declared = _declared(arguments.params, arguments.out)
-    recorded = distinct(read_bags(bags, arguments))
+    read = read_bags(bags, arguments)
+    _check_copies(bags, read)
+    recorded = distinct(read)
     runs = [item.run for item in recorded]
     learned = len(arguments.bags)
     result = identify(runs[:learned], declared, runs[learned:], progress=_tell)
@@ -71,6 +73,18 @@ def _check_apart(bags: Sequence[Path]) -> None:
     for index, bag in enumerate(bags):
         if places[index] in places[:index]:
             raise DiffbotError(f'{bag}: given twice. Give each bag once, to learn or --validate.')
+
+
+def _check_copies(bags: Sequence[Path], read: Sequence[RecordedRun]) -> None:
+    """Refuse a copy of a bag, likewise."""
+    moved = [(item.start_ns, item.run.odometry.twist.tobytes()) for item in read]
+    for index, bag in enumerate(bags):
+        first = moved.index(moved[index])
+        if first < index:
+            raise DiffbotError(
+                f'{bag}: holds the drive of {bags[first]}. Give each drive once, to learn or '
+                '--validate.'
+            )
 
 
 def _declared(params: Path, out: Path) -> Model:

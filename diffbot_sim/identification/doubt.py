@@ -11,6 +11,7 @@ from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
 from diffbot_sim.identification.free_forms.bases import again
 from diffbot_sim.identification.free_forms.bursts import bursts, is_small_part_of_bursts
 from diffbot_sim.identification.free_forms.dependence import Dependence, realised, worth_of
+from diffbot_sim.identification.free_forms.drifting import is_of_drift
 from diffbot_sim.identification.free_forms.moments import pushed, standing_out
 from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
@@ -134,7 +135,8 @@ def _left_over(seen: Seen) -> Objection:
     selection, final = seen.selection, seen.selection.final
     # What is allowed for excuses no name that is worth less than what is left.
     allowed = min(seen.allowed, weakest(selection)[0])
-    found = find_dependences(Screen(final), seen.held_out, allowed)
+    there = find_dependences(Screen(final), seen.held_out, allowed)
+    found = [left for left in there if not is_of_drift(left, final)]
     if not found:
         return _unfound(seen)
     for kind, left in product(final.space.kinds, found):

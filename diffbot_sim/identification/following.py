@@ -1,11 +1,14 @@
 """Whether a robot moves as it is driven at all, before its model is blamed for anything finer."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from diffbot_sim.identification.conclusions.comparison import run_free
 from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.fitting.wiring import Fault
+from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.free_forms.otherwise import force_over_time
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
@@ -29,6 +32,13 @@ def follows_nothing(fit: Fit, held_out: Sequence[Stretch]) -> Structure | None:
         'look at clocks, topics and units'
     )
     return force_over_time(fit, held_out[0], 0, words)
+
+
+def moved_as_if(fault: Fault, found: Found) -> Structure:
+    """Return the force that drives a robot whose recording has a fault, told by the fault."""
+    force = force_over_time(found.selection.final, found.held_out[0], fault.axes[0], '')
+    words = f'the robot moves as if {fault.words}: look at topics, signs, units and clocks'
+    return replace(force, description=words)
 
 
 def explains(fit: Fit, stretches: Sequence[Stretch]) -> bool:

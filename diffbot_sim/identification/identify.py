@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
+from functools import reduce
 
 from diffbot_sim.identification.conclusions.advice import advice
 from diffbot_sim.identification.conclusions.agreement import agreement
@@ -9,9 +10,13 @@ from diffbot_sim.identification.conclusions.comparison import compare_models, er
 from diffbot_sim.identification.conclusions.empirical import table_of, with_term
 from diffbot_sim.identification.conclusions.horizons import horizons
 from diffbot_sim.identification.conclusions.uncertainty import estimates
-from diffbot_sim.identification.following import follows_nothing
+from diffbot_sim.identification.contradiction import contradicted, explains_better, resized
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.wiring import fault_of
+from diffbot_sim.identification.following import follows_nothing, moved_as_if
 from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.recordings.gyro import bias_of, unbiased
+from diffbot_sim.identification.recordings.lateness import filled
 from diffbot_sim.identification.recordings.noiseless import odometry_noise
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.result import (
@@ -47,16 +52,50 @@ def identify(
     out. kinds: the effects to try, by default the whole library. Raises DataError where the
     runs are too short or do not move, or the declared mass or inertia is in another unit.
     """
-    given = Recordings(tuple(runs), tuple(validate))
+    given = Recordings(tuple(runs), tuple(validate)).each(filled)
     recordings = given.each(unbiased)
-    found = search(recordings, declared, _candidates(declared, kinds), progress)
+    found, denied = _searched(recordings, declared, kinds, progress)
     if len(given.all) > 1:
         progress('holding the runs against each other')
     return replace(
         _concluded(found, declared),
+        contradicted=denied,
         timings=found.timings(recordings),
         biases=tuple(filter(None, map(bias_of, given.all, recordings.all))),
     )
+
+
+def _searched(
+    recordings: Recordings,
+    declared: Model,
+    kinds: Sequence[type[Effect]] | None,
+    progress: Progress,
+) -> tuple[Found, tuple[str, ...]]:
+    """Search for what the model lacks; return, too, which of its effects it had better lack.
+
+    What is wired otherwise than it is told is no matter of effects: then none is looked for.
+    """
+    progress('looking at sides, signs, units and clocks')
+    fault = fault_of(recordings, Space(declared, ()))
+    if fault:
+        found = search(recordings, declared, (), progress)
+        return replace(found, unexplained=moved_as_if(fault, found)), ()
+    found = search(recordings, declared, _candidates(declared, kinds), progress)
+    denied = contradicted(found)
+    if not denied:
+        return found, ()
+    names = tuple(effect.name for effect in denied)
+    progress(f'doing without the declared {", ".join(names)}')
+    less = reduce(Model.without, names, declared)
+    other = search(recordings, less, _candidates(less, kinds), progress)
+    if not explains_better(other, found):
+        return found, ()
+    nearly = resized(declared, denied, other)
+    kept = {effect.name for effect in nearly.effects}
+    if kept.intersection(names):
+        progress('recalibrating declared effects')
+        other = search(recordings, nearly, _candidates(nearly, kinds), progress)
+    return other, tuple(name for name in names if name not in kept)
 
 
 def _concluded(found: Found, declared: Model) -> Identification:
@@ -74,11 +113,13 @@ def _concluded(found: Found, declared: Model) -> Identification:
     comparisons = compare_models(declared, found.recalibrated.model, watched, held_out)
     errors = errors_of(comparisons, 'validate' if found.recordings.validate else 'held_out')
     noise = ErrorNorm.of(odometry_noise(declared.half_separation))
+    nominal = estimates(found.recalibrated)
     return Identification(
         verdict=_verdict(selection, unexplained),
         effects=_effects(selection, known),
         unexplained=unexplained,
-        nominal=estimates(found.recalibrated),
+        nominal=nominal,
+        nominal_beside={name: known[name] for name in nominal} if found.names else {},
         errors=errors,
         candidates=tuple(_candidate(trial) for trial in selection.trials),
         declared=declared,

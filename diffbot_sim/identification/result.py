@@ -223,7 +223,10 @@ class Identification:
     better with it; timings: of runs whose twists were not taken as they were stamped; biases: of
     runs whose turn rates were not taken as they were told; near_rest: by how much a friction
     near rest of another form than declared, which was allowed for, lowers the deviance; 0 where
-    nothing was; added_noise: what was added to twists that had none, None where nothing was.
+    nothing was; added_noise: what was added to twists that had none, None where nothing was;
+    contradicted: declared effects that are not there as declared, so that the recalibrated model
+    lacks them, and the identified one has them only where they are found, with other parameters;
+    nominal_beside: what the nominal parameters are beside the effects found, if any were.
     """
 
     verdict: str
@@ -244,3 +247,5 @@ class Identification:
     biases: tuple[Bias, ...] = ()
     near_rest: float = 0.0
     added_noise: ErrorNorm | None = None
+    contradicted: tuple[str, ...] = ()
+    nominal_beside: dict[str, Estimate] = field(default_factory=dict)

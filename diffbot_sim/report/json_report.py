@@ -34,7 +34,10 @@ def as_dict(result: Identification) -> dict[str, Any]:
         'unexplained': None if result.unexplained is None else asdict(result.unexplained),
         'empirical': result.empirical
         and {'name': result.empirical.name, 'parameters': asdict(result.empirical)},
-        'nominal': {'parameters': _estimates(result.nominal)},
+        'nominal': {
+            'parameters': _estimates(result.nominal),
+            'beside_effects': _estimates(result.nominal_beside),
+        },
         'error': asdict(result.errors),
         'candidates': [asdict(candidate) for candidate in result.candidates],
         'advice': list(result.advice),
@@ -43,6 +46,7 @@ def as_dict(result: Identification) -> dict[str, Any]:
         'timings': [asdict(timing) for timing in result.timings],
         'biases': [asdict(bias) for bias in result.biases],
         'near_rest': result.near_rest,
+        'contradicted': list(result.contradicted),
         'added_noise': result.added_noise and asdict(result.added_noise),
     }
 

@@ -48,6 +48,7 @@ def page_text(result: Identification) -> str:
             horizons=horizon_rows(result),
             models=[(key, LABELS[key]) for key in models_shown(result)],
             checks=[rows.run_row(run) for run in result.runs],
+            of_declared=sentences.of_declared(result),
             disagreements=sentences.disagreements(result.runs),
             error_figures=figures.error_figures(result.errors),
             effects=[rows.effect_row(effect) for effect in result.effects],

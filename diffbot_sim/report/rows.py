@@ -1,6 +1,6 @@
 """Rows of the tables, in words, that the page and the terminal share."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from diffbot_sim.identification.result import (
@@ -26,12 +26,13 @@ EVIDENCE = {
 
 @dataclass(frozen=True)
 class ParameterRow:
-    """A parameter, its value now and, where there was one, its value before."""
+    """A parameter, its value now and, where there were any, before and beside effects."""
 
     name: str
     meaning: str
     value: str
     declared: str = ''
+    beside: str = ''
 
 
 @dataclass(frozen=True)
@@ -94,8 +95,13 @@ def effect_row(effect: FoundEffect) -> EffectRow:
 
 
 def nominal_rows(result: Identification) -> list[ParameterRow]:
-    """List the refitted parameters of the declared model, before and after."""
-    return [_nominal(result.declared, *item) for item in result.nominal.items()]
+    """List the parameters of the declared model, before and after, and beside effects found."""
+    plain = [_nominal(result.declared, *item) for item in result.nominal.items()]
+    found = result.nominal_beside
+    return [
+        replace(row, beside=estimate_text(found[row.name])) if row.name in found else row
+        for row in plain
+    ]
 
 
 def kept_rows(result: Identification) -> list[ParameterRow]:

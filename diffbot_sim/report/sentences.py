@@ -1,7 +1,7 @@
 """The words of the report: what was found, how sure it is, and in which units."""
 
 from collections.abc import Sequence
-from math import isfinite
+from math import isfinite, sqrt
 
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
@@ -14,6 +14,7 @@ from diffbot_sim.identification.result import (
     Structure,
     Timing,
 )
+from diffbot_sim.physics.effects import Effect
 from diffbot_sim.report.numerals import estimate_text, significant
 
 SPLITS = {
@@ -55,6 +56,13 @@ STOOD = (
     'those of the first run, as the ripple tells.'
 )
 
+# Mass and inertia that are so many times what was declared, alike within a factor.
+MANY, ALIKE = 3.0, 1.5
+UNITS = (
+    'Mass and inertia are {} and {} times what was declared, as where forces are told in another '
+    'unit (torques, say). All that is found is in that unit.'
+)
+
 NEAR_REST = (
     'Friction near rest is of another form than the declared law, as where wheels creep or yield '
     'before they slide. That was allowed for: without it, something would seem unexplained.'
@@ -70,21 +78,53 @@ NOISELESS = (
 def verdict(result: Identification) -> str:
     """Say the answer in one sentence."""
     if result.verdict == NOTHING_MISSING:
-        return f'Nothing missing: {_sufficient(result.errors)}.'
+        return f'Nothing missing{_but(result.contradicted)}: {_sufficient(result)}.'
     found = _listed([_named(effect) for effect in result.effects])
+    denied = f'; contradicted: {_declared(result.contradicted)}' if result.contradicted else ''
     if result.verdict == EFFECTS_FOUND:
         besides = f'; left unexplained: {_left(result)}' if result.unexplained else ''
-        return f'Found: {found}; {_fall(result.errors)}{besides}.'
+        return f'Found: {found}{denied}; {_fall(result.errors)}{besides}.'
     besides = f'; found besides: {found}' if result.effects else ''
-    return f'Unexplained: {_left(result)}{besides}; {_fall(result.errors)}.'
+    return f'Unexplained: {_left(result)}{besides}{denied}; {_fall(result.errors)}.'
 
 
-def _sufficient(errors: Errors) -> str:
+def of_declared(result: Identification) -> list[str]:
+    """Say which declared effects are not there as declared, and which were recalibrated."""
+    found = {effect.name for effect in result.effects}
+    denied = [
+        f'{name} is declared, and the recordings contradict it: '
+        + ('it is found with other parameters.' if name in found else 'remove it.')
+        for name in result.contradicted
+    ]
+    now = {effect.name: effect for effect in result.recalibrated.effects}
+    pairs = [(effect, now.get(effect.name, effect)) for effect in result.declared.effects]
+    return denied + [_recalibrated(was, it) for was, it in pairs if it != was]
+
+
+def _recalibrated(was: Effect, now: Effect) -> str:
+    values = zip(now.specs(), was.values, now.values, strict=True)
+    changes = [
+        f'{spec.name} {significant(new)} for {significant(old)}' for spec, old, new in values
+    ]
+    return f'{now.name}, which is declared, was recalibrated: {_listed(changes)}.'
+
+
+def _but(contradicted: Sequence[str]) -> str:
+    return f', but {_declared(contradicted)} is contradicted' if contradicted else ''
+
+
+def _declared(contradicted: Sequence[str]) -> str:
+    return f'the declared {_listed(tuple(contradicted))}'
+
+
+def _sufficient(result: Identification) -> str:
+    errors = result.errors
     left, floor = errors.recalibrated, errors.noise_floor
     near = left.v_rmse < NEAR * floor.v_rmse and left.omega_rmse < NEAR * floor.omega_rmse
     rest = '' if near else PUSHED
+    without = ' without it' if result.contradicted else ''
     return (
-        'recalibrated, the declared model predicts held-out speed to '
+        f'recalibrated{without}, the declared model predicts held-out speed to '
         f'{_speed(left.v_rmse)} and turn rate to {_rate(left.omega_rmse)}; '
         f'noise floor {_speed(floor.v_rmse)} and {_rate(floor.omega_rmse)}{rest}'
     )
@@ -98,9 +138,12 @@ def _named(effect: FoundEffect) -> str:
 
 
 def _fall(errors: Errors) -> str:
-    """Tell of the axis, speed or turn rate, whose error changes most."""
+    """Tell of the axis, speed or turn rate, whose error changes most, or that is most wrong."""
     before, after, floor = errors.recalibrated, errors.with_effects, errors.noise_floor
-    turning = before.omega_rmse * after.v_rmse > before.v_rmse * after.omega_rmse
+    if before == after:
+        turning = after.omega_rmse * floor.v_rmse > after.v_rmse * floor.omega_rmse
+    else:
+        turning = before.omega_rmse * after.v_rmse > before.v_rmse * after.omega_rmse
     what, said = ('turn-rate', _rate) if turning else ('speed', _speed)
     key = 'omega_rmse' if turning else 'v_rmse'
     old, new, least = (getattr(norm, key) for norm in (before, after, floor))
@@ -169,8 +212,19 @@ def of_recordings(result: Identification) -> list[str]:
         for it in result.runs
         if any(it.wheel_angles)
     ]
+    units = _units(result)
     near_rest = [NEAR_REST] if result.near_rest > 0.0 else []
-    return [*biases, *late, *stood, *near_rest, *_noise(result.added_noise)]
+    return [*biases, *late, *stood, *units, *near_rest, *_noise(result.added_noise)]
+
+
+def _units(result: Identification) -> list[str]:
+    """Say where mass and inertia are both many times what was declared: so much are forces."""
+    declared, now = result.declared.robot, result.identified.robot
+    ratios = (now.mass / declared.mass, now.inertia / declared.inertia)
+    low, high = min(ratios), max(ratios)
+    if high > ALIKE * low or 1.0 / MANY < sqrt(low * high) < MANY:
+        return []
+    return [UNITS.format(*map(significant, ratios))]
 
 
 def _noise(added: ErrorNorm | None) -> list[str]:

@@ -20,8 +20,13 @@ def print_summary(result: Identification, console: Console | None = None) -> Non
     console = console or Console(highlight=False)
     style = f'bold {COLOURS.get(result.verdict, "")}'
     console.print(Text(sentences.verdict(result), style=style), '')
-    for sentence in [*sentences.disagreements(result.runs), *sentences.of_recordings(result)]:
-        console.print(Text(sentence, style='yellow'), '')
+    for told in (
+        sentences.of_declared(result),
+        sentences.disagreements(result.runs),
+        sentences.of_recordings(result),
+    ):
+        for sentence in told:
+            console.print(Text(sentence, style='yellow'), '')
     console.print(_errors(result))
     if result.horizons:
         console.print(_horizons(result))

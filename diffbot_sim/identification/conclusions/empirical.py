@@ -37,6 +37,8 @@ def with_term(fit: Fit, structure: Structure, held_out: Sequence[Stretch]) -> Fi
 
 def table_of(structure: Structure) -> EmpiricalForce | EmpiricalWheelForce | None:
     """Return the curve of a structure as a table that the simulator runs, if there is such one."""
+    if not len(structure.knots):
+        return None
     low, high = float(structure.knots[0]), float(structure.knots[-1])
     places = np.linspace(low, high, POINTS)
     points = [float(f) for f in np.interp(places, structure.knots, structure.force)]

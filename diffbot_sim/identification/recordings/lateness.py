@@ -20,6 +20,7 @@ from diffbot_sim.identification.recordings.way import path_of
 from diffbot_sim.identification.result import Timing
 from diffbot_sim.identification.statistics.norms import norm, white_noise
 from diffbot_sim.records import Array, Odometry, Run
+from diffbot_sim.standing import unfilled
 
 # What makes a robot late: parameters whose sum is how late it is [s].
 LATE = ('actuator_delay.time', 'actuator_lag.time_constant')
@@ -39,6 +40,8 @@ CLEAR = 0.1
 # Samples to each side over which a path is smoothed, and how far apart ones are that are compared:
 # so far that smoothing gives them no noise in common.
 NEIGHBOURS, APART = 4, 5
+# Over how many samples at most a twist is taken from the pose where nobody filled it.
+LONGEST_MEAN = 10
 # A speed [m/s, rad/s] that is as good as none.
 TINY = 1e-9
 # A path that is a sum of twists misses it by less than this share of what the ways to add them up
@@ -58,7 +61,16 @@ def timely(run: Run) -> Run:
     it or lag behind it by so much. A longer mean, or one to both sides, hides what is fast: the
     twist is taken from the pose's changes, over as many samples as noise and the mean ask for.
     """
-    longest = _length_of_mean(run.odometry)
+    return _by_pose(run, _length_of_mean(run.odometry))
+
+
+def filled(run: Run) -> Run:
+    """Return a run whose twist is taken from its pose, if nobody filled it."""
+    return _by_pose(run, LONGEST_MEAN) if any(unfilled(run.odometry)) else run
+
+
+def _by_pose(run: Run, longest: int) -> Run:
+    """Return a run whose twist is taken from the pose, over as few samples as noise allows."""
     taken = run
     for group in range(1, longest + 1):
         taken = as_pose_moves(averaged(run, group))

@@ -1,0 +1,63 @@
+"""What of the odometry the forces are known for: what drove it otherwise explains nothing."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diffbot_sim.bags.series import LONGEST_SILENCE, NANOSECONDS, Ordered, silence
+from diffbot_sim.standing import is_moving
+
+
+class Known(NamedTuple):
+    """Odometry that forces are known for, and a line for each force that is known for less."""
+
+    odom: Ordered
+    notes: tuple[str, ...] = ()
+
+
+def known(odom: Ordered, forces: Iterable[Ordered]) -> Known:
+    """Return the odometry between where the forces begin and where they end.
+
+    Before they begin none acts as long as the robot rests. What they end with is held where it is
+    none, or where they are sent so seldom.
+    """
+    left, notes = odom, list[str]()
+    for force in forces:
+        for bound in (_begun, _ended):
+            left, told = bound(left, force)
+            notes += told
+    return Known(left, tuple(notes))
+
+
+def _begun(odom: Ordered, force: Ordered) -> Known:
+    before = odom.stamp < force.stamp[0]
+    late = _seconds(force.stamp[0] - odom.stamp[0])
+    if late <= LONGEST_SILENCE:
+        return Known(odom)
+    told = f'{force.topic} begins {late:.1f} s after the odometry'
+    if is_moving(odom.values[before, :2]):
+        return Known(_part(odom, ~before), (f'{told}, which moves: left out until then',))
+    return Known(odom, (f'{told}; taken as 0 until then',))
+
+
+def _ended(odom: Ordered, force: Ordered) -> Known:
+    early = odom.stamp[-1] - force.stamp[-1]
+    if _seconds(early) <= LONGEST_SILENCE:
+        return Known(odom)
+    told = f'{force.topic} ends {_seconds(early):.1f} s before the odometry'
+    last = float(force.values[-1, 0])
+    if last == 0.0 or early <= silence(force):
+        return Known(odom, (f'{told}; its last force is held',))
+    words = f'{told}, with {last:g} N; left out from there on'
+    return Known(_part(odom, odom.stamp <= force.stamp[-1]), (words,))
+
+
+def _part(odom: Ordered, kept: NDArray[np.bool_]) -> Ordered:
+    return replace(odom, stamp=odom.stamp[kept], values=odom.values[kept])
+
+
+def _seconds(span: np.int64) -> float:
+    return float(span) / NANOSECONDS

@@ -1,0 +1,130 @@
+"""Whether the recordings are wired as they should be: sides, signs, units and clocks."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from scipy.signal import correlate, correlation_lags
+
+from diffbot_sim.identification.fitting.calibration import simulation_errors
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.predictor import NO_GAIN, predict
+from diffbot_sim.identification.recordings.recordings import Recordings
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.statistics.norms import norm, white_noise
+from diffbot_sim.records import Array, Commands, Run
+
+# It is a fault if without it less than such shares are left of the motion, and of the error.
+OF_MOTION, OF_ERROR = 0.75, 0.5
+# What moves by less than so many times its noise is not asked.
+BEYOND_NOISE, NOTHING = 5.0, 1e-9
+# Clocks that differ by less [s] may be an actuator's delay; by more they are not looked for.
+LEAST_LATE, MOST_LATE = 1.0, 30.0
+# Interval at which lateness is looked for [s].
+INTERVAL = 0.02
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A fault of a recording, in words; how the run is without it, and which axes it spoils."""
+
+    words: str
+    mended: Callable[[Run], Run]
+    axes: tuple[int, ...]
+
+
+def _driven(run: Run, by: Array) -> Run:
+    """Return a run with other forces: a matrix of what is taken of the right, and left, one."""
+    return replace(run, commands=Commands(run.commands.time, run.commands.force @ by.T))
+
+
+def _told(run: Run, units: Array) -> Run:
+    return replace(run, odometry=replace(run.odometry, twist=run.odometry.twist * units))
+
+
+def _later(run: Run, lateness: float) -> Run:
+    return replace(run, commands=replace(run.commands, time=run.commands.time + lateness))
+
+
+RIGHT, LEFT_SIDE = np.diag([-1.0, 1.0]), np.diag([1.0, -1.0])
+EXCHANGED = np.array([[0.0, 1.0], [1.0, 0.0]])
+FAULTS = (
+    Fault(
+        'left and right were exchanged, or the turn rate had the other sign',
+        partial(_driven, by=EXCHANGED),
+        (1,),
+    ),
+    Fault('the speed had the other sign', partial(_driven, by=-EXCHANGED), (0,)),
+    Fault('both forces had the other sign', partial(_driven, by=-np.eye(2)), (0, 1)),
+    Fault('the force of the right wheel had the other sign', partial(_driven, by=RIGHT), (0, 1)),
+    Fault(
+        'the force of the left wheel had the other sign', partial(_driven, by=LEFT_SIDE), (0, 1)
+    ),
+    Fault('the speed was told in mm/s', partial(_told, units=np.array([1e-3, 1.0])), (0,)),
+    Fault('the speed was told in cm/s', partial(_told, units=np.array([1e-2, 1.0])), (0,)),
+    Fault(
+        'the turn rate was told in degrees',
+        partial(_told, units=np.array([1.0, np.pi / 180.0])),
+        (1,),
+    ),
+)
+
+
+def fault_of(recordings: Recordings, space: Space) -> Fault | None:
+    """Return the fault without which the declared model tells most of the motion, if there is one.
+
+    None where it tells that already, or where no fault accounts for what it does not.
+    """
+    fitted, _ = recordings.divided
+    unexplained = _shares(fitted, space)
+    if not np.any(unexplained > OF_MOTION):
+        return None
+    most = np.minimum(OF_MOTION, OF_ERROR * unexplained)
+    best, least = None, np.inf
+    for fault in (*FAULTS, *_clocks(fitted, space)):
+        without, _ = recordings.each(fault.mended).divided
+        left = _shares(without, space)
+        spoilt = [axis for axis in fault.axes if np.isfinite(left[axis])]
+        if spoilt and np.all(left[spoilt] < most[spoilt]) and np.nansum(left) < least:
+            best, least = fault, float(np.nansum(left))
+    return best
+
+
+def _shares(stretches: tuple[Stretch, ...], space: Space) -> Array:
+    """Return which share of the motion a declared model errs by, for v and ω.
+
+    Around its mean; not a number where it hardly moves.
+    """
+    twists = [stretch.twist[stretch.used > 0] for stretch in stretches]
+    motion = np.concatenate(twists).std(axis=0)
+    noise = norm(np.array([white_noise(twist) for twist in twists])).pair
+    error = norm(simulation_errors(space, stretches, space.prior())).pair
+    moves = motion > BEYOND_NOISE * noise + NOTHING
+    return np.where(moves, error / np.where(moves, motion, 1.0), np.nan)
+
+
+def _clocks(stretches: tuple[Stretch, ...], space: Space) -> Iterator[Fault]:
+    """Yield the fault of clocks that differ by what the motion is later than the declared one."""
+    lateness = _lateness(stretches[0], space)
+    if abs(lateness) > LEAST_LATE:
+        later = 'later' if lateness > 0.0 else 'earlier'
+        words = f'the odometry was stamped about {abs(lateness):.1f} s {later} than the forces'
+        yield Fault(words, partial(_later, lateness=lateness), (0, 1))
+
+
+def _lateness(stretch: Stretch, space: Space) -> float:
+    """Return by how much what was measured comes after what is simulated [s]."""
+    simulated = stretch.twist - predict(space.model(space.prior()), stretch, NO_GAIN).innovation
+    time = np.arange(stretch.time[0], stretch.time[-1], INTERVAL)
+    measured, told = (_levelled(time, stretch.time, x) for x in (stretch.twist, simulated))
+    alike = sum(correlate(m, t) for m, t in zip(measured, told, strict=True))
+    lags = correlation_lags(len(time), len(time)) * INTERVAL
+    near = np.abs(lags) <= MOST_LATE
+    return float(lags[near][int(np.argmax(alike[near]))])
+
+
+def _levelled(at: Array, time: Array, twist: Array) -> list[Array]:
+    """Return v and ω at moments, around their means and of unit size."""
+    levelled = (np.interp(at, time, rate) - rate.mean() for rate in twist.T)
+    return [rate / max(float(np.linalg.norm(rate)), 1e-12) for rate in levelled]
