@@ -24,8 +24,22 @@ from diffbot_sim.physics.effects import Effect, laws, library
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.robot import Robot
 from diffbot_sim.records import Array, Trajectory
+from diffbot_sim.report import Origin
+from diffbot_sim.report.json_report import json_text
+from diffbot_sim.report.page import page_text
 
+ORIGIN = Origin(('drives/first', 'drives/second'), (), 'robot.yaml', '2026-11-28', '0.1.0')
 NOISE = (0.004, 0.008)
+
+
+def page(result: Identification) -> str:
+    """Return the page about an answer."""
+    return page_text(result, ORIGIN)
+
+
+def as_json(result: Identification) -> str:
+    """Return report.json about an answer."""
+    return json_text(result, ORIGIN)
 
 
 def found(name: str = 'quadratic_drag', with_pose: bool = True) -> Identification:

@@ -1,5 +1,6 @@
 """Declared effects that are not there, or of another size."""
 
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -7,22 +8,27 @@ import pytest
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.result import Identification
-from diffbot_sim.physics import Model
+from diffbot_sim.physics import Friction, Model
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
 from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.physics.effects.yaw_friction import YawFriction
+from diffbot_sim.records import Run
 
 NEAR = (Slope, QuadraticDrag, ActuatorLag, YawFriction)  # kinds that are asked about
+
+
+def drive(effects: tuple[Effect, ...], robot: Model | None = None) -> Run:
+    """Return a drive of our own robot, or another, with some effects."""
+    forces = random_forces(5, 60.0, -9.0, 11.0)
+    return rehearse(replace(robot or Model(), effects=effects), forces, Surroundings(), 5)
 
 
 @cache
 def answer(true: tuple[Effect, ...], declared: tuple[Effect, ...]) -> Identification:
     """Return what is told of our own robot with some effects, declared with others."""
-    forces = random_forces(5, 60.0, -9.0, 11.0)
-    run = rehearse(Model(effects=true), forces, Surroundings(), 5)
-    return identify([run], Model(effects=declared), kinds=NEAR)
+    return identify([drive(true)], Model(effects=declared), kinds=NEAR)
 
 
 def named(told: Identification) -> list[str]:
@@ -52,6 +58,21 @@ def test_missing_effect_is_found_beside_a_declared_one_that_is_not_there() -> No
     told = answer((QuadraticDrag(6.0),), (Slope(0.02, 0.0),))
     assert (named(told), told.contradicted) == (['quadratic_drag'], ('slope',))
     assert told.unexplained is None
+
+
+@pytest.mark.parametrize('law', ['none', 'coulomb', 'coulomb_viscous'])
+def test_too_simple_a_law_of_friction_is_contradicted(law: str) -> None:
+    declared = Model(friction=Friction(model=law))
+    told = identify([drive(())], declared, kinds=NEAR)
+    assert (told.verdict, told.contradicted) == ('nothing_missing', ('friction.model',))
+    assert told.identified.friction.model == 'generalized'
+    assert told.near_rest == 0.0
+
+
+def test_simple_law_of_friction_is_believed_beside_what_is_missing() -> None:
+    simple = Model(friction=Friction(model='coulomb_viscous'))
+    told = identify([drive((QuadraticDrag(6.0),), simple)], simple, kinds=NEAR)
+    assert (named(told), told.contradicted) == (['quadratic_drag'], ())
 
 
 def test_effect_of_about_the_declared_size_is_recalibrated() -> None:

@@ -10,7 +10,6 @@ import pytest
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.records import Array
 from diffbot_sim.report.floor import floor_figures
-from diffbot_sim.report.page import page_text
 
 SPOT = np.array([0.5, -0.2, 0.4])
 
@@ -33,8 +32,8 @@ def told(answer: Identification, backward: bool) -> Array:
 
 
 def test_map_is_drawn_where_what_is_left_depends_on_a_spot() -> None:
-    assert 'Where on the floor it acts' in page_text(on_a_spot('patch'))
-    assert 'Where on the floor it acts' not in page_text(by_hand.unexplained())
+    assert 'Where on the floor it acts' in by_hand.page(on_a_spot('patch'))
+    assert 'Where on the floor it acts' not in by_hand.page(by_hand.unexplained())
 
 
 def test_without_a_pose_there_is_no_map() -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from drives import START, drive
-from identification_by_hand import comparison, found
+from identification_by_hand import ORIGIN, comparison, found
 from rosbags.rosbag2 import Reader
 
 from diffbot_sim.__main__ import main
@@ -35,7 +35,9 @@ def test_identify_writes_report_model_and_residual(bag, monkeypatch):
     names = {'report.json', 'report.html', 'model.yaml', 'residual'}
     assert {file.name for file in out.iterdir()} == names
     assert load_model(out / 'model.yaml') == found().identified
-    assert 'Effects added: quadratic_drag.' in (out / 'model.yaml').read_text()
+    head = (out / 'model.yaml').read_text()
+    assert f'{bag}, declared in {SAMPLE}.' in head
+    assert 'Effects added: quadratic_drag.' in head
 
 
 def test_runs_and_validation_reach_identification_apart(bag, monkeypatch):
@@ -121,6 +123,6 @@ def test_the_residual_bag_is_stamped_like_the_recording(tmp_path):
         RecordedRun(drive('first drive'), START),
         RecordedRun(drive('second drive'), START),
     ]
-    identify.save(found(), tmp_path, recorded, [])
+    identify.save(found(), ORIGIN, tmp_path, recorded)
     with Reader(tmp_path / 'residual') as reader:
         assert reader.start_time == START + 90 * 10**9

@@ -19,9 +19,7 @@ from diffbot_sim.physics.effects import laws, library
 from diffbot_sim.physics.model import Model
 from diffbot_sim.report import figures, print_summary, sentences, write_report
 from diffbot_sim.report.dependence import binned
-from diffbot_sim.report.json_report import json_text
 from diffbot_sim.report.numerals import estimate_text, significant
-from diffbot_sim.report.page import page_text
 
 Answer = Callable[[], Identification]
 ANSWERS = [by_hand.nothing_missing, by_hand.found, by_hand.unexplained]
@@ -47,7 +45,7 @@ def one_odd_run() -> Identification:
 
 @every_verdict
 def test_json_has_the_keys_that_other_programs_rely_on(answer: Answer) -> None:
-    report = json.loads(json_text(answer()))
+    report = json.loads(by_hand.as_json(answer()))
     assert {'verdict', 'effects', 'unexplained', 'nominal', 'error', 'candidates'} <= set(report)
     assert report['nominal']['parameters']['robot.mass']['ci95'] == [10.171, 10.255]
     error = report['error']
@@ -57,7 +55,7 @@ def test_json_has_the_keys_that_other_programs_rely_on(answer: Answer) -> None:
 
 
 def test_json_tells_a_found_effect_with_interval_evidence_and_alternatives() -> None:
-    effect = json.loads(json_text(by_hand.found()))['effects'][0]
+    effect = json.loads(by_hand.as_json(by_hand.found()))['effects'][0]
     assert effect['name'] == 'quadratic_drag'
     assert {'value', 'ci95', 'unit'} <= set(effect['parameters']['coefficient'])
     assert effect['evidence']['delta_bic'] == 812.4
@@ -65,14 +63,14 @@ def test_json_tells_a_found_effect_with_interval_evidence_and_alternatives() -> 
 
 
 def test_json_tells_errors_by_horizon() -> None:
-    horizons = json.loads(json_text(by_hand.found()))['horizons']
+    horizons = json.loads(by_hand.as_json(by_hand.found()))['horizons']
     assert [item['name'] for item in horizons] == ['one step', '1 s', '5 s', 'free-running']
     assert [item['seconds'] for item in horizons] == [0.02, 1.0, 5.0, None]
     assert set(horizons[0]['declared']) == {'v_rmse', 'omega_rmse'}
 
 
 def test_json_tells_which_run_disagrees_and_why() -> None:
-    first, second = json.loads(json_text(one_odd_run()))['runs'][:2]
+    first, second = json.loads(by_hand.as_json(one_odd_run()))['runs'][:2]
     assert (first['name'], first['agrees'], first['why']) == ('first drive', True, '')
     assert (second['name'], second['agrees'], second['v_rmse']) == ('second drive', False, 0.098)
     assert second['why'] == 'mass 12.900 ± 0.100 kg, elsewhere 10.010 ± 0.050 kg'
@@ -80,13 +78,20 @@ def test_json_tells_which_run_disagrees_and_why() -> None:
     assert set(second['noise_floor']) == set(second['declared']) == {'v_rmse', 'omega_rmse'}
 
 
+@pytest.mark.parametrize('told', [by_hand.page, by_hand.as_json])
+def test_reader_learns_of_what_was_read(told: Callable[[Identification], str]) -> None:
+    text = told(by_hand.found())
+    said = ('drives/first', 'drives/second', 'robot.yaml', '2026-11-28', '0.1.0')
+    assert all(word in text for word in said)
+
+
 def test_one_run_has_nothing_to_agree_with() -> None:
-    (run,) = json.loads(json_text(by_hand.nothing_missing()))['runs']
+    (run,) = json.loads(by_hand.as_json(by_hand.nothing_missing()))['runs']
     assert (run['agrees'], run['why'], run['v_rmse']) == (None, None, None)
-    assert 'Do the runs agree' not in page_text(by_hand.nothing_missing())
+    assert 'Do the runs agree' not in by_hand.page(by_hand.nothing_missing())
 
 
-@pytest.mark.parametrize('told', [page_text, summary])
+@pytest.mark.parametrize('told', [by_hand.page, summary])
 def test_run_that_disagrees_is_named_at_once(told: Callable[[Identification], str]) -> None:
     text = ' '.join(told(one_odd_run()).split())
     said = 'second drive disagrees with the other runs: mass 12.900 ± 0.100 kg'
@@ -94,7 +99,7 @@ def test_run_that_disagrees_is_named_at_once(told: Callable[[Identification], st
     assert text.index(said) < text.index(table)
 
 
-@pytest.mark.parametrize('told', [page_text, summary])
+@pytest.mark.parametrize('told', [by_hand.page, summary])
 def test_reader_learns_when_twists_were_not_taken_as_stamped(
     told: Callable[[Identification], str],
 ) -> None:
@@ -111,21 +116,21 @@ def test_reader_learns_when_twists_were_not_taken_as_stamped(
     assert 'fourth drive: the twists may be 10 ms older than their stamps' in text
 
 
-@pytest.mark.parametrize('told', [page_text, summary])
+@pytest.mark.parametrize('told', [by_hand.page, summary])
 def test_reader_learns_that_wheels_creep_near_rest(told: Callable[[Identification], str]) -> None:
     yielding = replace(by_hand.nothing_missing(), near_rest=90.0)
     assert 'Friction near rest is of another form' in ' '.join(told(yielding).split())
     assert 'Friction near rest' not in told(by_hand.nothing_missing())
 
 
-@pytest.mark.parametrize('told', [page_text, summary])
+@pytest.mark.parametrize('told', [by_hand.page, summary])
 def test_reader_learns_which_noise_was_added(told: Callable[[Identification], str]) -> None:
     exact = replace(by_hand.nothing_missing(), added_noise=ErrorNorm(0.003, 0.014))
     text = ' '.join(told(exact).split())
     assert 'white noise of 3.00 mm/s and 14.0 mrad/s was added' in text
 
 
-@pytest.mark.parametrize('told', [page_text, summary])
+@pytest.mark.parametrize('told', [by_hand.page, summary])
 def test_reader_learns_which_bias_was_taken_off(told: Callable[[Identification], str]) -> None:
     biased = replace(by_hand.nothing_missing(), biases=(Bias('first drive', 0.0071),))
     text = ' '.join(told(biased).split())
@@ -138,7 +143,7 @@ def test_of_two_runs_that_disagree_neither_is_called_odd() -> None:
     assert said.startswith('a and b disagree. a: mass 12.90')
 
 
-@pytest.mark.parametrize('told', [page_text, summary])
+@pytest.mark.parametrize('told', [by_hand.page, summary])
 def test_errors_are_told_by_horizon(told: Callable[[Identification], str]) -> None:
     text = told(by_hand.found())
     assert all(name in text for name in ('one step', '1 s', '5 s'))
@@ -147,12 +152,12 @@ def test_errors_are_told_by_horizon(told: Callable[[Identification], str]) -> No
 def test_parameter_at_its_bound_is_marked() -> None:
     stopped = Estimate(0.0, -0.1, 0.1, 'N', at_bound=True)
     result = replace(by_hand.found(), nominal={'friction.mu_viscous': stopped})
-    assert '(at bound)' in page_text(result)
-    estimates = json.loads(json_text(result))['nominal']['parameters']
+    assert '(at bound)' in by_hand.page(result)
+    estimates = json.loads(by_hand.as_json(result))['nominal']['parameters']
     assert estimates['friction.mu_viscous']['at_bound'] is True
 
 
-@pytest.mark.parametrize('told', [json_text, page_text, summary])
+@pytest.mark.parametrize('told', [by_hand.as_json, by_hand.page, summary])
 def test_pure_number_has_no_minus_for_a_unit(told: Callable[[Identification], str]) -> None:
     told_text = re.sub(r'<script>.*?</script>', '', told(by_hand.found('slope')), flags=re.DOTALL)
     assert not re.search(r"""["'>\d]\s*-\s*["'<,]|\[-\]|\d -$""", told_text, re.MULTILINE)
@@ -162,19 +167,19 @@ def test_pure_number_has_no_minus_for_a_unit(told: Callable[[Identification], st
     'words', ['without slipping', 'Wheel separation', 'tilted evenly', 'start-up', 'three tests']
 )
 def test_page_says_what_was_assumed(words: str) -> None:
-    said = page_text(by_hand.found())
+    said = by_hand.page(by_hand.found())
     assert words in said[said.index('What was assumed') :]
 
 
 def test_json_tells_numbers_in_full_precision() -> None:
     third = replace(by_hand.errors(0.03), declared=by_hand.ErrorNorm(1 / 3, 2 / 3))
-    report = json.loads(json_text(replace(by_hand.found(), errors=third)))
+    report = json.loads(by_hand.as_json(replace(by_hand.found(), errors=third)))
     assert report['error']['declared'] == {'v_rmse': 1 / 3, 'omega_rmse': 2 / 3}
 
 
 @every_verdict
 def test_json_has_null_where_there_is_no_number(answer: Answer) -> None:
-    text = json_text(replace(answer(), nominal={'m': Estimate(1.0, -np.inf, np.inf, 'kg')}))
+    text = by_hand.as_json(replace(answer(), nominal={'m': Estimate(1.0, -np.inf, np.inf, 'kg')}))
     assert not re.search(r'NaN|Infinity', text)
     assert json.loads(text)['nominal']['parameters']['m']['ci95'] == [None, None]
     assert json.loads(text)['candidates'][1]['p_block'] is None
@@ -185,7 +190,7 @@ def test_json_has_null_where_there_is_no_number(answer: Answer) -> None:
 def test_page_loads_nothing_from_elsewhere(
     answer: Callable[..., Identification], with_pose: bool
 ) -> None:
-    page = page_text(answer(with_pose=with_pose))
+    page = by_hand.page(answer(with_pose=with_pose))
     head = re.sub(r'<script>.*?</script>', '', page, flags=re.DOTALL)
     assert not re.search(r"""(src|href|url)\s*[=(]\s*["']?(https?:)?//""", head)
     assert '@import' not in head
@@ -195,7 +200,7 @@ def test_page_loads_nothing_from_elsewhere(
 @every_verdict
 def test_page_says_the_verdict(answer: Answer) -> None:
     result = answer()
-    assert f'<h1 id="verdict">{sentences.verdict(result)}</h1>' in page_text(result)
+    assert f'<h1 id="verdict">{sentences.verdict(result)}</h1>' in by_hand.page(result)
 
 
 def test_page_cannot_be_broken_by_a_name() -> None:
@@ -203,21 +208,21 @@ def test_page_cannot_be_broken_by_a_name() -> None:
     result = by_hand.found()
     runs = tuple(replace(run, run=evil) for run in result.comparisons)
     structure = replace(by_hand.unexplained().unexplained, variable=evil, description=evil)
-    page = page_text(replace(result, comparisons=runs, unexplained=structure, advice=(evil,)))
+    page = by_hand.page(replace(result, comparisons=runs, unexplained=structure, advice=(evil,)))
     assert '<script>alert' not in page
 
 
 @pytest.mark.parametrize('name', sorted(laws()))
 def test_every_effect_of_the_library_can_be_told(name: str) -> None:
     result = by_hand.found(name)
-    assert library()[name].meaning[1:60] in page_text(result).replace('&#39;', "'")
+    assert library()[name].meaning[1:60] in by_hand.page(result).replace('&#39;', "'")
     assert name in summary(result)
-    assert json.loads(json_text(result))['effects'][0]['name'] == name
+    assert json.loads(by_hand.as_json(result))['effects'][0]['name'] == name
 
 
 def test_answer_without_runs_or_candidates_can_be_told() -> None:
     bare = replace(by_hand.nothing_missing(), comparisons=(), candidates=(), nominal={})
-    assert 'Nothing missing' in page_text(bare)
+    assert 'Nothing missing' in by_hand.page(bare)
     assert 'Nothing missing' in summary(bare)
 
 
@@ -275,7 +280,7 @@ def test_forces_in_another_unit_are_suspected(factors: tuple[float, float], told
     mass, inertia = factors[0] * robot.mass, factors[1] * robot.inertia
     scaled = Model(replace(robot, mass=mass, inertia=inertia))
     result = replace(by_hand.nothing_missing(), identified=scaled)
-    assert ('as where forces are told in another unit' in page_text(result)) == told
+    assert ('as where forces are told in another unit' in by_hand.page(result)) == told
 
 
 def test_declared_effect_that_is_not_there_is_told_at_once() -> None:
@@ -283,8 +288,8 @@ def test_declared_effect_that_is_not_there_is_told_at_once() -> None:
     said = 'slope is declared, and the recordings contradict it: remove it.'
     assert 'Nothing missing, but the declared slope is contradicted: ' in sentences.verdict(result)
     assert said in ' '.join(summary(result).split())
-    assert said in page_text(result)
-    assert json.loads(json_text(result))['contradicted'] == ['slope']
+    assert said in by_hand.page(result)
+    assert json.loads(by_hand.as_json(result))['contradicted'] == ['slope']
 
 
 def test_declared_effect_of_another_size_is_told_as_found() -> None:
@@ -294,10 +299,10 @@ def test_declared_effect_of_another_size_is_told_as_found() -> None:
 
 
 def test_parameters_beside_the_effects_found_are_told() -> None:
-    nominal = json.loads(json_text(by_hand.found()))['nominal']
+    nominal = json.loads(by_hand.as_json(by_hand.found()))['nominal']
     assert nominal['beside_effects']['robot.mass']['value'] == 10.011
-    assert '10.011 ± 0.044 kg' in page_text(by_hand.found())
-    assert 'with effects, 95' not in page_text(by_hand.nothing_missing())
+    assert '10.011 ± 0.044 kg' in by_hand.page(by_hand.found())
+    assert 'with effects, 95' not in by_hand.page(by_hand.nothing_missing())
 
 
 @pytest.mark.parametrize(('error', 'told'), [(0.0041, False), (0.04, True)])
@@ -333,8 +338,8 @@ def test_numbers_keep_three_digits() -> None:
 
 def test_report_replaces_an_older_one_and_leaves_no_scraps(tmp_path: Path) -> None:
     out = tmp_path / 'new' / 'report'
-    write_report(by_hand.found(), out)
-    write_report(by_hand.nothing_missing(), out)
+    write_report(by_hand.found(), by_hand.ORIGIN, out)
+    write_report(by_hand.nothing_missing(), by_hand.ORIGIN, out)
     assert sorted(path.name for path in out.iterdir()) == ['report.html', 'report.json']
     assert json.loads((out / 'report.json').read_text())['verdict'] == 'nothing_missing'
 
@@ -342,13 +347,13 @@ def test_report_replaces_an_older_one_and_leaves_no_scraps(tmp_path: Path) -> No
 @needs_chromium
 @pytest.mark.parametrize('width', [390, 1280])
 def test_page_is_no_wider_than_a_phone_or_a_screen(width: int, tmp_path: Path) -> None:
-    write_report(one_odd_run(), tmp_path)
+    write_report(one_odd_run(), by_hand.ORIGIN, tmp_path)
     assert browsed(tmp_path, width, 'dom().documentElement.scrollWidth') == str(width)
 
 
 @needs_chromium
 def test_browser_draws_the_figures(tmp_path: Path) -> None:
-    write_report(by_hand.unexplained(), tmp_path)
+    write_report(by_hand.unexplained(), by_hand.ORIGIN, tmp_path)
     waiting = 'dom().querySelectorAll(\'script[type="application/json"]\').length'
     # The second run waits until it is chosen.
     assert browsed(tmp_path, 1200, f"drawn + ' drawn, ' + {waiting} + ' waiting'") == (

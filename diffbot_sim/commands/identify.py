@@ -7,7 +7,6 @@ from dataclasses import replace
 from itertools import count
 from pathlib import Path
 
-from diffbot_sim import __version__
 from diffbot_sim.bags import RecordedRun, check_replaceable, write_series
 from diffbot_sim.commands._recordings import add_topic_options, check_out, read_bags
 from diffbot_sim.commands._residual import residual_series
@@ -16,7 +15,7 @@ from diffbot_sim.errors import DiffbotError
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.physics.model import Model
-from diffbot_sim.report import print_summary, write_report
+from diffbot_sim.report import Origin, origin_of, print_summary, write_report
 
 RESIDUAL, MODEL = 'residual', 'model.yaml'
 # Lengths that nothing in a drive tells, so that they are not fitted.
@@ -62,7 +61,8 @@ def run(arguments: Namespace) -> None:
     runs = [item.run for item in recorded]
     learned = len(arguments.bags)
     result = identify(runs[:learned], declared, runs[learned:], progress=_tell)
-    save(result, arguments.out, recorded[:learned], recorded[learned:])
+    origin = origin_of(arguments.bags, arguments.validate, arguments.params)
+    save(result, origin, arguments.out, recorded)
     print_summary(result)
     print(f'report: {arguments.out / "report.html"}')
 
@@ -116,25 +116,21 @@ def distinct(recorded: Sequence[RecordedRun]) -> list[RecordedRun]:
 
 
 def save(
-    result: Identification,
-    out: Path,
-    recorded: Sequence[RecordedRun],
-    validate: Sequence[RecordedRun],
+    result: Identification, origin: Origin, out: Path, recorded: Sequence[RecordedRun]
 ) -> None:
     """Write report.json, report.html, model.yaml and the residual bag."""
-    write_report(result, out)
-    save_model(result.identified, out / MODEL, _origin(result, recorded))
-    starts = {item.run.name: item.start_ns for item in (*recorded, *validate)}
+    write_report(result, origin, out)
+    save_model(result.identified, out / MODEL, _head(result, origin))
+    starts = {item.run.name: item.start_ns for item in recorded}
     first = min(starts.values())
     series = residual_series(result.comparisons, {n: s - first for n, s in starts.items()})
     write_series(out / RESIDUAL, series, first)
 
 
-def _origin(result: Identification, recorded: Sequence[RecordedRun]) -> str:
+def _head(result: Identification, origin: Origin) -> str:
     """Say where a model comes from, for the head of its file."""
     found = ', '.join(effect.name for effect in result.effects) or 'none'
-    bags = ', '.join(item.run.name for item in recorded)
-    return f'Identified by diffbot_sim {__version__} from {bags}.\nEffects added: {found}.'
+    return f'Identified: {origin.words}.\nEffects added: {found}.'
 
 
 def _tell(text: str) -> None:

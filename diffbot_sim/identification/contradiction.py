@@ -1,4 +1,4 @@
-"""Effects that are declared, and that the recordings contradict: not there, or of another size."""
+"""What is declared and the recordings contradict: effects of another size, a friction law."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -14,6 +14,7 @@ from diffbot_sim.physics.effects import Effect, laws
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array
 
+GENERAL = 'generalized'
 # Within this share of itself an effect is of about the declared size.
 SAME = 0.5
 
@@ -34,6 +35,30 @@ def contradicted(found: Found) -> tuple[Effect, ...]:
         for effect in final.space.declared.effects
         if effect.name in known and any(_is_contradicted(effect, fit) for fit in fits)
     )
+
+
+def law_is_contradicted(found: Found) -> bool:
+    """Say whether recordings would rather have the generalized law of friction than a simple one.
+
+    Asked, too, where friction near rest of another form was allowed for.
+    """
+    if not (found.says_something or found.near_rest > 0.0):
+        return False
+    fit = found.undoubted.final
+    general = replace(fit.space, declared=with_general_law(fit.space.declared))
+    if general.declared == fit.space.declared:
+        return False
+    effects = fit.u[len(fit.space.nominal) :]
+    start = np.concatenate([general.prior()[: len(general.nominal)], effects])
+    freed = fit_prediction(general, fit.stretches, start, fit.gains)
+    return delta_bic(fit, freed) > BEYOND_CHANCE
+
+
+def with_general_law(model: Model) -> Model:
+    """Return a model with the generalized law of friction."""
+    law = model.friction
+    static = max(law.mu_static, law.mu_coulomb)
+    return replace(model, friction=replace(law, model=GENERAL, mu_static=static))
 
 
 def resized(declared: Model, effects: Sequence[Effect], found: Found) -> Model:

@@ -10,7 +10,13 @@ from diffbot_sim.identification.conclusions.comparison import compare_models, er
 from diffbot_sim.identification.conclusions.empirical import table_of, with_term
 from diffbot_sim.identification.conclusions.horizons import horizons
 from diffbot_sim.identification.conclusions.uncertainty import estimates
-from diffbot_sim.identification.contradiction import contradicted, explains_better, resized
+from diffbot_sim.identification.contradiction import (
+    contradicted,
+    explains_better,
+    law_is_contradicted,
+    resized,
+    with_general_law,
+)
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.wiring import fault_of
 from diffbot_sim.identification.following import follows_nothing, moved_as_if
@@ -21,6 +27,7 @@ from diffbot_sim.identification.recordings.noiseless import odometry_noise
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
+    LAW,
     NOTHING_MISSING,
     UNEXPLAINED,
     Candidate,
@@ -71,7 +78,7 @@ def _searched(
     kinds: Sequence[type[Effect]] | None,
     progress: Progress,
 ) -> tuple[Found, tuple[str, ...]]:
-    """Search for what the model lacks; return, too, which of its effects it had better lack.
+    """Search for what the model lacks; return, too, what it had better lack.
 
     What is wired otherwise than it is told is no matter of effects: then none is looked for.
     """
@@ -81,18 +88,31 @@ def _searched(
         found = search(recordings, declared, (), progress)
         return replace(found, unexplained=moved_as_if(fault, found)), ()
     found = search(recordings, declared, _candidates(declared, kinds), progress)
-    denied = contradicted(found)
-    if not denied:
+    return _without_denied(found, recordings, declared, kinds, progress)
+
+
+def _without_denied(
+    found: Found,
+    recordings: Recordings,
+    declared: Model,
+    kinds: Sequence[type[Effect]] | None,
+    progress: Progress,
+) -> tuple[Found, tuple[str, ...]]:
+    """Search again without what is declared and contradicted, if anything is; return what is."""
+    denied, law = contradicted(found), law_is_contradicted(found)
+    effects = tuple(effect.name for effect in denied)
+    names = (*effects, LAW) if law else effects
+    if not names:
         return found, ()
-    names = tuple(effect.name for effect in denied)
     progress(f'doing without the declared {", ".join(names)}')
-    less = reduce(Model.without, names, declared)
+    lawful = with_general_law(declared) if law else declared
+    less = reduce(Model.without, effects, lawful)
     other = search(recordings, less, _candidates(less, kinds), progress)
     if not explains_better(other, found):
         return found, ()
-    nearly = resized(declared, denied, other)
+    nearly = resized(lawful, denied, other)
     kept = {effect.name for effect in nearly.effects}
-    if kept.intersection(names):
+    if kept.intersection(effects):
         progress('recalibrating declared effects')
         other = search(recordings, nearly, _candidates(nearly, kinds), progress)
     return other, tuple(name for name in names if name not in kept)

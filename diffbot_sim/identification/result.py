@@ -13,6 +13,8 @@ from diffbot_sim.records import Array, Trajectory
 NOTHING_MISSING = 'nothing_missing'
 EFFECTS_FOUND = 'effects_found'
 UNEXPLAINED = 'unexplained'
+# What is contradicted where the declared law of friction is too simple, beside names of effects.
+LAW = 'friction.model'
 
 
 @dataclass(frozen=True)
@@ -226,6 +228,7 @@ class Identification:
     nothing was; added_noise: what was added to twists that had none, None where nothing was;
     contradicted: declared effects that are not there as declared, so that the recalibrated model
     lacks them, and the identified one has them only where they are found, with other parameters;
+    LAW among them where the generalized law of friction was taken in place of the declared one;
     nominal_beside: what the nominal parameters are beside the effects found, if any were.
     """
 

@@ -17,12 +17,13 @@ from diffbot_sim.identification.result import (
 )
 from diffbot_sim.report.errors import MODELS, run_errors
 from diffbot_sim.report.numerals import unit_text
+from diffbot_sim.report.origin import Origin
 from diffbot_sim.report.sentences import why
 
 
-def json_text(result: Identification) -> str:
+def json_text(result: Identification, origin: Origin) -> str:
     """Write the answer as JSON: full precision, SI units, null for what is not a number."""
-    plain = _plain(as_dict(result))
+    plain = _plain(as_dict(result) | {'origin': asdict(origin)})
     return json.dumps(plain, indent=2, ensure_ascii=False, allow_nan=False) + '\n'
 
 

@@ -22,6 +22,7 @@ from diffbot_sim.report.errors import (
 )
 from diffbot_sim.report.floor import floor_figures
 from diffbot_sim.report.numerals import significant
+from diffbot_sim.report.origin import Origin
 from diffbot_sim.report.spectra import spectrum_figures
 
 
@@ -35,13 +36,14 @@ class RunPart:
     figures: list[Figure]
 
 
-def page_text(result: Identification) -> str:
+def page_text(result: Identification, origin: Origin) -> str:
     """Render the whole page."""
     return (
         _environment()
         .get_template('page.html.j2')
         .render(
             result=result,
+            origin=origin.words,
             verdict=sentences.verdict(result),
             split=sentences.split(result.errors),
             errors=error_rows(result.errors),

@@ -106,7 +106,7 @@ def nominal_rows(result: Identification) -> list[ParameterRow]:
 
 def kept_rows(result: Identification) -> list[ParameterRow]:
     """List the parameters of robot and friction that stayed as declared."""
-    fitted = {name.split('.')[-1] for name in result.nominal}
+    fitted = {name.split('.')[-1] for name in (*result.nominal, *result.contradicted)}
     parts = (result.declared.robot, result.declared.friction)
     return [
         ParameterRow(spec.name, spec.meaning, f'{getattr(part, spec.name)}{unit_text(spec.unit)}')

@@ -5,6 +5,7 @@ from math import isfinite, sqrt
 
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
+    LAW,
     NOTHING_MISSING,
     ErrorNorm,
     Errors,
@@ -90,15 +91,21 @@ def verdict(result: Identification) -> str:
 
 def of_declared(result: Identification) -> list[str]:
     """Say which declared effects are not there as declared, and which were recalibrated."""
-    found = {effect.name for effect in result.effects}
-    denied = [
-        f'{name} is declared, and the recordings contradict it: '
-        + ('it is found with other parameters.' if name in found else 'remove it.')
-        for name in result.contradicted
-    ]
+    denied = [_denied(result, name) for name in result.contradicted]
     now = {effect.name: effect for effect in result.recalibrated.effects}
     pairs = [(effect, now.get(effect.name, effect)) for effect in result.declared.effects]
     return denied + [_recalibrated(was, it) for was, it in pairs if it != was]
+
+
+def _denied(result: Identification, name: str) -> str:
+    """Say what to do about what is contradicted."""
+    if name == LAW:
+        declared, taken = (it.friction.model for it in (result.declared, result.identified))
+        what, then = f'{LAW} {declared}', f'{taken} was taken'
+    else:
+        there = any(effect.name == name for effect in result.effects)
+        what, then = name, 'it is found with other parameters' if there else 'remove it'
+    return f'{what} is declared, and the recordings contradict it: {then}.'
 
 
 def _recalibrated(was: Effect, now: Effect) -> str:
@@ -122,7 +129,7 @@ def _sufficient(result: Identification) -> str:
     left, floor = errors.recalibrated, errors.noise_floor
     near = left.v_rmse < NEAR * floor.v_rmse and left.omega_rmse < NEAR * floor.omega_rmse
     rest = '' if near else PUSHED
-    without = ' without it' if result.contradicted else ''
+    without = ' without that' if result.contradicted else ''
     return (
         f'recalibrated{without}, the declared model predicts held-out speed to '
         f'{_speed(left.v_rmse)} and turn rate to {_rate(left.omega_rmse)}; '

@@ -4,16 +4,17 @@ from pathlib import Path
 
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.report.json_report import json_text
+from diffbot_sim.report.origin import Origin
 
 
-def write_report(result: Identification, out: Path) -> None:
+def write_report(result: Identification, origin: Origin, out: Path) -> None:
     """Write report.json and report.html into a folder, which is made where it lacks.
 
     Raises OSError when the folder cannot be written.
     """
     from diffbot_sim.report.page import page_text  # plotting loads slowly
 
-    texts = {'report.json': json_text(result), 'report.html': page_text(result)}
+    texts = {'report.json': json_text(result, origin), 'report.html': page_text(result, origin)}
     out.mkdir(parents=True, exist_ok=True)
     for name, text in texts.items():
         part = out / f'{name}.part'

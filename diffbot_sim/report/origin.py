@@ -1,0 +1,34 @@
+"""Where an answer comes from: who finds a report later asks."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import date
+from pathlib import Path
+
+from diffbot_sim import __version__
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Bags, as they were named, the parameter file, the day and the version."""
+
+    bags: tuple[str, ...]
+    validate: tuple[str, ...]
+    params: str
+    day: str
+    version: str
+
+    @property
+    def words(self) -> str:
+        """One line for people."""
+        judged = f', judged by {", ".join(self.validate)}' if self.validate else ''
+        return (
+            f'diffbot_sim {self.version}, {self.day}: {", ".join(self.bags)}{judged}, '
+            f'declared in {self.params}'
+        )
+
+
+def origin_of(bags: Sequence[Path], validate: Sequence[Path], params: Path) -> Origin:
+    """Return the origin of what is told today."""
+    learned, judged = (tuple(map(str, paths)) for paths in (bags, validate))
+    return Origin(learned, judged, str(params), date.today().isoformat(), __version__)
