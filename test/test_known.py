@@ -25,11 +25,11 @@ def read(folder: Path, items: list[Message]) -> RecordedRun:
 
 
 def test_odometry_after_the_last_of_a_force_that_acts_is_left_out(tmp_path):
-    found = read(tmp_path, [m for i, m in enumerate(slowly()) if m.topic != LEFT or i < 150])
+    found = read(tmp_path, [m for i, m in enumerate(slowly()) if m.topic != LEFT or i < 200])
     assert found.notes == (
-        f'drive: {LEFT} ends 5.0 s before the odometry, with -0.297802 N; left out from there on',
+        f'drive: {LEFT} ends 3.3 s before the odometry, with 0.941688 N; left out from there on',
     )
-    assert found.run.odometry.time[-1] == pytest.approx(4.9)
+    assert found.run.odometry.time[-1] == pytest.approx(6.6)
 
 
 def test_a_force_that_ends_with_none_is_held(tmp_path):
@@ -41,6 +41,14 @@ def test_a_force_that_ends_with_none_is_held(tmp_path):
     assert found.notes == (
         f'drive: {LEFT} ends 5.0 s before the odometry; its last force is held',
     )
+    assert found.run.odometry.time[-1] == pytest.approx(9.9)
+
+
+@pytest.mark.parametrize('sent', [range(1), range(10), [*range(20), *range(40, 55)]])
+def test_a_force_that_is_sent_when_it_changes_is_held(tmp_path, sent):
+    kept = [m for i, m in enumerate(slowly()) if m.topic != LEFT or i // 3 in sent]
+    found = read(tmp_path, kept)
+    assert 'its last force is held' in found.notes[-1]
     assert found.run.odometry.time[-1] == pytest.approx(9.9)
 
 

@@ -22,7 +22,7 @@ def known(odom: Ordered, forces: Iterable[Ordered]) -> Known:
     """Return the odometry between where the forces begin and where they end.
 
     Before they begin none acts as long as the robot rests. What they end with is held where it is
-    none, or where they are sent so seldom.
+    none, or where they may have been sent when they changed: not all along, or with pauses.
     """
     left, notes = odom, list[str]()
     for force in forces:
@@ -44,15 +44,22 @@ def _begun(odom: Ordered, force: Ordered) -> Known:
 
 
 def _ended(odom: Ordered, force: Ordered) -> Known:
-    early = odom.stamp[-1] - force.stamp[-1]
-    if _seconds(early) <= LONGEST_SILENCE:
+    early = _seconds(odom.stamp[-1] - force.stamp[-1])
+    if early <= LONGEST_SILENCE:
         return Known(odom)
-    told = f'{force.topic} ends {_seconds(early):.1f} s before the odometry'
+    told = f'{force.topic} ends {early:.1f} s before the odometry'
     last = float(force.values[-1, 0])
-    if last == 0.0 or early <= silence(force):
+    if last == 0.0 or not _is_steady(force, odom):
         return Known(odom, (f'{told}; its last force is held',))
     words = f'{told}, with {last:g} N; left out from there on'
     return Known(_part(odom, odom.stamp <= force.stamp[-1]), (words,))
+
+
+def _is_steady(force: Ordered, odom: Ordered) -> bool:
+    """Say whether a force was sent all along, without a pause, but for the end."""
+    pause = silence(force)
+    pauses, left = np.diff(force.stamp) > pause, odom.stamp[-1] - force.stamp[-1]
+    return bool(not pauses.any() and left > pause and np.ptp(force.stamp) > left)
 
 
 def _part(odom: Ordered, kept: NDArray[np.bool_]) -> Ordered:
