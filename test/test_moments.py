@@ -8,6 +8,9 @@ from fits import ROUGH, SMOOTH, acted_otherwise, fitted
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces
 from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.fitting.response import Response
+from diffbot_sim.identification.fitting.views import View
+from diffbot_sim.identification.free_forms import moments
 from diffbot_sim.identification.free_forms.moments import (
     OUTSTANDING,
     find_moments,
@@ -15,7 +18,7 @@ from diffbot_sim.identification.free_forms.moments import (
     pushed,
     standing_out,
 )
-from diffbot_sim.records import Run
+from diffbot_sim.records import Array, Run
 
 DRIVE = random_forces(5, 80.0, 2.0, 14.0)
 
@@ -69,6 +72,24 @@ def test_gusts_that_a_noise_model_follows_stand_out_of_what_it_follows() -> None
     assert left.worth > 2.0 * OUTSTANDING**2
     assert sorted(moment.time for moment in found) == pytest.approx(np.add(gusts, 2.0), abs=1.0)
     assert {moment.axis for moment in found} == {0}
+
+
+@pytest.mark.parametrize(('known_to', 'stand_out'), [(1.0, True), (20.0, False)])
+def test_force_that_is_hardly_felt_does_not_stand_out(
+    monkeypatch: pytest.MonkeyPatch, known_to: float, stand_out: bool
+) -> None:
+    """Two windows hold ten times the usual error; there it is that, or twenty times as much."""
+    real = moments.over_time
+
+    def with_two(view: View, response: Response, axis: int) -> Array:
+        knots, force, error = real(view, response, axis)
+        rows, usual = [10, -10], np.median(error)
+        force, error = 0.1 * force, error.copy()
+        force[rows], error[rows] = 10.0 * usual, known_to * usual
+        return np.stack([knots, force, error])
+
+    monkeypatch.setattr(moments, 'over_time', with_two)
+    assert bool(find_outstanding(fit_of(rolling(SMOOTH)))) == stand_out
 
 
 def test_one_push_must_be_as_sure_as_two() -> None:

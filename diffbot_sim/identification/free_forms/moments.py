@@ -104,13 +104,13 @@ def _felt(fit: Fit) -> list[tuple[View, Response]]:
 
 def _outstanding(felt: Sequence[tuple[View, Response]], axis: int) -> Iterator[Moment]:
     parts = [_steadily(view, *over_time(view, response, axis)) for view, response in felt]
-    _, force, error = np.hstack(parts)
+    _, force, errors = np.hstack(parts)
     if len(force) == 0:
         return
     middle = np.median(force)
-    usual = max(NORMAL * float(np.median(np.abs(force - middle))), float(np.median(error)))
-    for index, (time, pushes, _) in enumerate(parts):
-        times_usual = np.abs(pushes - middle) / usual
+    usual = max(NORMAL * float(np.median(np.abs(force - middle))), float(np.median(errors)))
+    for index, (time, pushes, error) in enumerate(parts):
+        times_usual = np.abs(pushes - middle) / np.maximum(usual, error)
         chances = len(force) * 2.0 * stats.norm.sf(times_usual)
         for row in np.flatnonzero(times_usual > OUTSTANDING).tolist():
             yield Moment(index, float(time[row]), axis, float(chances[row]))
