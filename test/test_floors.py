@@ -36,6 +36,7 @@ STOREYS: list[set[str]] = [
     {'doubt', 'following', 'older', 'odd_ones', 'later'},
     {'simulating', 'standing_wheels', 'contradiction'},
     {'search'},
+    {'questioning'},
     {'identify'},
 ]
 STOREY = {chamber: storey for storey, chambers in enumerate(STOREYS) for chamber in chambers}

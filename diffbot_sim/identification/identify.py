@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
-from functools import reduce
 
 from diffbot_sim.identification.conclusions.advice import advice
 from diffbot_sim.identification.conclusions.agreement import agreement
@@ -10,24 +9,15 @@ from diffbot_sim.identification.conclusions.comparison import compare_models, er
 from diffbot_sim.identification.conclusions.empirical import table_of, with_term
 from diffbot_sim.identification.conclusions.horizons import horizons
 from diffbot_sim.identification.conclusions.uncertainty import estimates
-from diffbot_sim.identification.contradiction import (
-    contradicted,
-    explains_better,
-    law_is_contradicted,
-    resized,
-    with_general_law,
-)
-from diffbot_sim.identification.fitting.coordinates import Space
-from diffbot_sim.identification.fitting.wiring import fault_of
-from diffbot_sim.identification.following import follows_nothing, moved_as_if
+from diffbot_sim.identification.following import follows_nothing
 from diffbot_sim.identification.found import Found
+from diffbot_sim.identification.questioning import searched
 from diffbot_sim.identification.recordings.gyro import bias_of, unbiased
 from diffbot_sim.identification.recordings.lateness import filled
 from diffbot_sim.identification.recordings.noiseless import odometry_noise
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
-    LAW,
     NOTHING_MISSING,
     UNEXPLAINED,
     Candidate,
@@ -37,11 +27,10 @@ from diffbot_sim.identification.result import (
     Identification,
     Structure,
 )
-from diffbot_sim.identification.search import search
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import Progress, Trial
 from diffbot_sim.identification.simulating import for_simulation
-from diffbot_sim.physics.effects import Effect, laws, library
+from diffbot_sim.physics.effects import Effect, library
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Run
 
@@ -61,7 +50,7 @@ def identify(
     """
     given = Recordings(tuple(runs), tuple(validate)).each(filled)
     recordings = given.each(unbiased)
-    found, denied = _searched(recordings, declared, kinds, progress)
+    found, denied = searched(recordings, declared, kinds, progress)
     if len(given.all) > 1:
         progress('holding the runs against each other')
     return replace(
@@ -70,52 +59,6 @@ def identify(
         timings=found.timings(recordings),
         biases=tuple(filter(None, map(bias_of, given.all, recordings.all))),
     )
-
-
-def _searched(
-    recordings: Recordings,
-    declared: Model,
-    kinds: Sequence[type[Effect]] | None,
-    progress: Progress,
-) -> tuple[Found, tuple[str, ...]]:
-    """Search for what the model lacks; return, too, what it had better lack.
-
-    What is wired otherwise than it is told is no matter of effects: then none is looked for.
-    """
-    progress('looking at sides, signs, units and clocks')
-    fault = fault_of(recordings, Space(declared, ()))
-    if fault:
-        found = search(recordings, declared, (), progress)
-        return replace(found, unexplained=moved_as_if(fault, found)), ()
-    found = search(recordings, declared, _candidates(declared, kinds), progress)
-    return _without_denied(found, recordings, declared, kinds, progress)
-
-
-def _without_denied(
-    found: Found,
-    recordings: Recordings,
-    declared: Model,
-    kinds: Sequence[type[Effect]] | None,
-    progress: Progress,
-) -> tuple[Found, tuple[str, ...]]:
-    """Search again without what is declared and contradicted, if anything is; return what is."""
-    denied, law = contradicted(found), law_is_contradicted(found)
-    effects = tuple(effect.name for effect in denied)
-    names = (*effects, LAW) if law else effects
-    if not names:
-        return found, ()
-    progress(f'doing without the declared {", ".join(names)}')
-    lawful = with_general_law(declared) if law else declared
-    less = reduce(Model.without, effects, lawful)
-    other = search(recordings, less, _candidates(less, kinds), progress)
-    if not explains_better(other, found):
-        return found, ()
-    nearly = resized(lawful, denied, other)
-    kept = {effect.name for effect in nearly.effects}
-    if kept.intersection(effects):
-        progress('recalibrating declared effects')
-        other = search(recordings, nearly, _candidates(nearly, kinds), progress)
-    return other, tuple(name for name in names if name not in kept)
 
 
 def _concluded(found: Found, declared: Model) -> Identification:
@@ -153,13 +96,6 @@ def _concluded(found: Found, declared: Model) -> Identification:
         near_rest=found.near_rest,
         added_noise=noise if found.noisy else None,
     )
-
-
-def _candidates(declared: Model, kinds: Sequence[type[Effect]] | None) -> tuple[type[Effect], ...]:
-    """Return the effects to try: what the declared model has is not missing."""
-    present = {effect.name for effect in declared.effects}
-    chosen = laws().values() if kinds is None else kinds
-    return tuple(kind for kind in chosen if kind.name not in present)
 
 
 def _verdict(selection: Selection, unexplained: Structure | None) -> str:
