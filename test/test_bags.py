@@ -10,7 +10,7 @@ from diffbot_sim.bags import Topics, read_run, write_run
 from diffbot_sim.bags.folder import Message, write_bag
 from diffbot_sim.bags.messages import wrench
 from diffbot_sim.bags.raw import topics_in
-from diffbot_sim.records import Commands
+from diffbot_sim.records import Commands, Odometry, Run
 
 
 def test_the_storage_file_alone_is_a_bag_too(tmp_path):
@@ -119,6 +119,20 @@ def test_a_number_out_of_all_proportion_is_left_out_and_told(tmp_path, absurd):
         f'drive: left out 1 messages of {RIGHT} whose numbers are more than 100 times as large '
         'as nearly all others',
     )
+
+
+def test_a_robot_that_moves_for_moments_only_is_believed(tmp_path):
+    time = np.arange(20_000) / 100.0
+    noise = np.random.default_rng(3).normal(0.0, 1e-3, (len(time), 2))
+    moves = np.abs(time - 150.0)[:, None] < 0.8
+    pose = np.zeros((len(time), 3))
+    run = Run(
+        'drive', Commands(time, 5.0 * moves * [1.0, 1.0]), Odometry(time, noise + moves, pose)
+    )
+    write_run(tmp_path / 'drive', run, START)
+    found = read_run(tmp_path / 'drive')
+    assert found.notes == ()
+    assert len(found.run.odometry.time) == len(time)
 
 
 def test_holes_in_the_odometry_are_told(tmp_path):

@@ -82,7 +82,7 @@ def test_parameter_file_is_not_overwritten_by_the_result(bag, capsys):
     assert own.read_text() == SAMPLE.read_text()
 
 
-def test_lengths_that_nobody_gave_are_told(bag, monkeypatch, capsys):
+def test_numbers_that_nobody_gave_are_told(bag, monkeypatch, capsys):
     monkeypatch.setattr(identify, 'identify', lambda *runs, **options: found())
     own = bag.parent / 'own.yaml'
     own.write_text('/**:\n  ros__parameters:\n    robot: {mass: 8.0, wheel_radius: 0.1}\n')
@@ -90,8 +90,9 @@ def test_lengths_that_nobody_gave_are_told(bag, monkeypatch, capsys):
         main([str(bag), '--params', str(own), '--out', str(bag.parent / 'out')], 'identify') == 0
     )
     told = [line for line in capsys.readouterr().err.splitlines() if 'is not given' in line]
-    assert len(told) == 1
-    assert 'robot.wheel_separation is not given; 0.4 m is taken' in told[0]
+    assert len(told) == 2
+    assert 'robot.wheel_separation is not given; 0.4 m is taken, and not fitted' in told[0]
+    assert 'robot.inertia is not given; 0.4 kg·m² is where its fit begins' in told[1]
 
 
 def test_nothing_is_written_when_identification_fails(bag, monkeypatch):

@@ -17,8 +17,9 @@ LONGEST_GAP = 3600 * NANOSECONDS
 MOST_UNUSABLE, MOST_REPEATED = 0.01, 0.5
 # A topic has a hole where it is silent for longer than this [s], and than so many usual intervals.
 LONGEST_SILENCE, USUAL_SILENCES = 1.0, 10.0
-# What is so many times as large as all but 1 % of what is not 0 is no measurement.
-ABSURD, ALL_BUT = 100.0, 0.99
+# What is so many times as large as all but 1 % of what is not 0, and as what is usual within so
+# many messages around, is no measurement.
+ABSURD, ALL_BUT, AROUND = 100.0, 0.99, 50
 
 
 @dataclass(frozen=True)
@@ -108,13 +109,20 @@ def _check_finite(topic: str, finite: NDArray[np.bool_]) -> None:
 
 
 def _absurd(values: Array) -> NDArray[np.bool_]:
-    """Return which rows hold a number out of all proportion to those of the others."""
+    """Return which rows hold a number out of all proportion to most others, and to those around.
+
+    A robot that moves for moments only is no mistake: what is around is alike then.
+    """
     sizes = np.abs(values)
     proportion = [
         np.quantile(size[size > 0.0], ALL_BUT, method='lower') if size.any() else np.inf
         for size in sizes.T
     ]
-    return np.asarray(np.any(sizes > ABSURD * np.array(proportion), axis=1))
+    beyond = sizes > ABSURD * np.array(proportion)
+    for row in np.flatnonzero(beyond.any(axis=1)):
+        around = sizes[max(0, row - AROUND) : row + AROUND + 1]
+        beyond[row] &= sizes[row] > ABSURD * np.median(around, axis=0)
+    return np.asarray(beyond.any(axis=1))
 
 
 def _check_clock(topic: str, stamp: Stamps) -> None:

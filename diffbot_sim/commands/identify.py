@@ -14,12 +14,14 @@ from diffbot_sim.config import left_out, load_model, save_model
 from diffbot_sim.errors import DiffbotError
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.result import Identification
+from diffbot_sim.parameters import specs
 from diffbot_sim.physics.model import Model
 from diffbot_sim.report import Origin, origin_of, print_summary, write_report
 
 RESIDUAL, MODEL = 'residual', 'model.yaml'
 # Lengths that nothing in a drive tells, so that they are not fitted.
 LENGTHS = ('wheel_separation', 'wheel_radius')
+GUESSED = ('mass', 'inertia')
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -88,15 +90,17 @@ def _check_copies(bags: Sequence[Path], read: Sequence[RecordedRun]) -> None:
 
 
 def _declared(params: Path, out: Path) -> Model:
-    """Read the declared model, and tell which lengths it takes from nobody."""
+    """Read the declared model, and tell which numbers it has from nobody."""
     if params.resolve() == (out / MODEL).resolve():
         raise DiffbotError(
             f'{params}: the result would take its place. Choose another folder for --out.'
         )
     declared = load_model(params)
-    for name in left_out(params, 'robot', LENGTHS):
-        value = getattr(declared.robot, name)
-        _tell(f'note: {params}: robot.{name} is not given; {value:g} m is taken, and not fitted')
+    for names, then in ((LENGTHS, 'taken, and not fitted'), (GUESSED, 'where its fit begins')):
+        for name in left_out(params, 'robot', names):
+            value = getattr(declared.robot, name)
+            unit = next(spec.unit for spec in specs(declared.robot) if spec.name == name)
+            _tell(f'note: {params}: robot.{name} is not given; {value:g} {unit} is {then}')
     return declared
 
 
