@@ -96,4 +96,4 @@ def test_fault_is_the_answer_and_no_effect_is_named() -> None:
     assert answer.verdict == 'unexplained'
     assert answer.unexplained is not None
     assert answer.unexplained.description.startswith('the robot moves as if left and right were')
-    assert answer.effects == answer.candidates == ()
+    assert answer.effects == answer.candidates == answer.advice == ()

@@ -89,7 +89,8 @@ def _concluded(found: Found, declared: Model) -> Identification:
         recalibrated=found.recalibrated.model,
         identified=final.model,
         comparisons=comparisons,
-        advice=advice(selection, known),
+        # Where no effect was tried the recording is at fault, and no other drive would help.
+        advice=advice(selection, known) if selection.trials else (),
         empirical=table_of(unexplained) if closed and unexplained else None,
         horizons=horizons(models, watched, held_out, errors),
         runs=agreement(selection.final, found.recordings.all, found.aside),
