@@ -1,5 +1,6 @@
 """Pushes at a few moments, told from rough floors and from what only looks like them."""
 
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -8,8 +9,8 @@ from fits import ROUGH, SMOOTH, acted_otherwise, fitted
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.fitting.response import Response
-from diffbot_sim.identification.fitting.views import View
+from diffbot_sim.identification.fitting.response import Response, responses
+from diffbot_sim.identification.fitting.views import View, views
 from diffbot_sim.identification.free_forms import moments
 from diffbot_sim.identification.free_forms.moments import (
     OUTSTANDING,
@@ -105,6 +106,19 @@ def test_what_odometry_missed_is_no_push_where_it_comes_back() -> None:
     kept = np.abs(seen.time % 20.0 - 10.0) < 9.0
     holes = replace(seen, time=seen.time[kept], twist=seen.twist[kept], pose=seen.pose[kept])
     assert find_moments(fit_of(replace(run, odometry=holes))) == []
+
+
+def test_force_over_time_is_told_around_what_odometry_missed() -> None:
+    seen = rolling(SMOOTH).odometry
+    kept = np.abs(seen.time % 20.0 - 10.0) < 9.0
+    holes = replace(seen, time=seen.time[kept], twist=seen.twist[kept], pose=seen.pose[kept])
+    fit = fit_of(replace(rolling(SMOOTH), odometry=holes))
+    (view,), (response,) = views(fit, fit.stretches), responses(fit)
+    with warnings.catch_warnings():
+        warnings.simplefilter('error')  # of means of nothing
+        knots, force, _ = moments.over_time(view, response, 0)
+    assert np.isfinite(force).all()
+    assert np.min(np.abs(knots[:, None] - [20.0, 40.0])) > 0.5
 
 
 def test_outlier_is_no_push() -> None:

@@ -230,4 +230,5 @@ def _acting(view: View, response: Response, axis: int, middles: Array) -> tuple[
         error = known**-0.5
     disturbance = view.prediction.disturbance[:, axis, None]
     followed = disturbance + told * response.followed(answers)[:, axis]
-    return told + np.mean(followed, axis=0, where=within), error
+    # A window that odometry missed has no sample, and no force is felt there.
+    return told + np.sum(followed, axis=0, where=within) / np.maximum(within.sum(axis=0), 1), error
