@@ -14,9 +14,9 @@ from diffbot_sim.records import Commands, Odometry, Run
 SECOND = 10**9
 
 
-def slowly() -> list[Message]:
+def slowly(run: Run | None = None) -> list[Message]:
     """Make the messages of a drive of ten seconds."""
-    return [stamped(m, START + 10 * (m.stamp - START)) for m in messages(drive())]
+    return [stamped(m, START + 10 * (m.stamp - START)) for m in messages(run or drive())]
 
 
 def read(folder: Path, items: list[Message]) -> RecordedRun:
@@ -64,8 +64,7 @@ def test_a_robot_that_rests_before_forces_begin_is_believed(tmp_path):
     rests = np.arange(100) < 30
     twist = drive().odometry.twist * ~rests[:, None]
     odom = Odometry(drive().odometry.time, twist, drive().odometry.pose)
-    items = messages(Run('drive', drive().commands, odom))
-    slow = [stamped(m, START + 10 * (m.stamp - START)) for m in items]
+    slow = slowly(Run('drive', drive().commands, odom))
     found = read(tmp_path, [m for i, m in enumerate(slow) if m.topic != LEFT or i > 60])
     assert found.notes == (
         f'drive: {LEFT} begins 2.0 s after the odometry; taken as 0 until then',

@@ -9,8 +9,8 @@ from fits import fitted
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
-from diffbot_sim.identification.leading import acted_before
 from diffbot_sim.identification.older import Ages
+from diffbot_sim.identification.recordings.acting import acted_before
 from diffbot_sim.identification.recordings.lateness import filled, lag_behind_pose, timely, timing
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.physics import Model

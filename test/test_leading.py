@@ -8,7 +8,8 @@ from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
-from diffbot_sim.identification.leading import acted_before, lead_of
+from diffbot_sim.identification.leading import lead_of
+from diffbot_sim.identification.recordings.acting import acted_before
 from diffbot_sim.identification.recordings.stretches import split
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects import Effect

@@ -32,6 +32,14 @@ def rolling(around: Surroundings, *pushes: tuple[float, float]) -> Run:
     return acted_otherwise(DRIVE, force, around, 5)
 
 
+def with_holes(run: Run) -> Run:
+    """Return a run whose odometry misses two seconds around every twentieth."""
+    seen = run.odometry
+    kept = np.abs(seen.time % 20.0 - 10.0) < 9.0
+    holes = replace(seen, time=seen.time[kept], twist=seen.twist[kept], pose=seen.pose[kept])
+    return replace(run, odometry=holes)
+
+
 def fit_of(run: Run) -> Fit:
     """Return a fit of the plain model."""
     fit, _ = fitted(run)
@@ -102,17 +110,11 @@ def test_one_push_must_be_as_sure_as_two() -> None:
 
 def test_what_odometry_missed_is_no_push_where_it_comes_back() -> None:
     run = rolling(ROUGH, (20.4, 6.0), (40.4, 6.0))
-    seen = run.odometry
-    kept = np.abs(seen.time % 20.0 - 10.0) < 9.0
-    holes = replace(seen, time=seen.time[kept], twist=seen.twist[kept], pose=seen.pose[kept])
-    assert find_moments(fit_of(replace(run, odometry=holes))) == []
+    assert find_moments(fit_of(with_holes(run))) == []
 
 
 def test_force_over_time_is_told_around_what_odometry_missed() -> None:
-    seen = rolling(SMOOTH).odometry
-    kept = np.abs(seen.time % 20.0 - 10.0) < 9.0
-    holes = replace(seen, time=seen.time[kept], twist=seen.twist[kept], pose=seen.pose[kept])
-    fit = fit_of(replace(rolling(SMOOTH), odometry=holes))
+    fit = fit_of(with_holes(rolling(SMOOTH)))
     (view,), (response,) = views(fit, fit.stretches), responses(fit)
     with warnings.catch_warnings():
         warnings.simplefilter('error')  # of means of nothing

@@ -1,6 +1,6 @@
 """Clocks that were set while a bag was recorded: stamps that leap, though receipts do not."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -42,9 +42,9 @@ def leaps(series: Series) -> Iterator[Leap]:
             yield Leap(int(first), int(by))
 
 
-def unset(series: Series) -> Series:
-    """Return messages stamped as if their clock had not been set."""
+def unset(series: Series, found: Iterable[Leap]) -> Series:
+    """Return messages stamped as if their clock had not leapt so."""
     stamped = series.stamped.copy()
-    for leap in leaps(series):
+    for leap in found:
         stamped[leap.first :] -= leap.by
     return replace(series, stamped=stamped)

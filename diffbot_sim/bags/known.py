@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from diffbot_sim.bags.poses import TWIST
 from diffbot_sim.bags.series import LONGEST_SILENCE, NANOSECONDS, Ordered, silence
 from diffbot_sim.standing import is_moving
 
@@ -38,7 +39,7 @@ def _begun(odom: Ordered, force: Ordered) -> Known:
     if late <= LONGEST_SILENCE:
         return Known(odom)
     told = f'{force.topic} begins {late:.1f} s after the odometry'
-    if is_moving(odom.values[before, :2]):
+    if is_moving(odom.values[before, TWIST]):
         return Known(_part(odom, ~before), (f'{told}, which moves: left out until then',))
     return Known(odom, (f'{told}; taken as 0 until then',))
 

@@ -1,10 +1,10 @@
 """What people should know of a recording before they believe what follows from it."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from diffbot_sim.bags.clock import leaps
+from diffbot_sim.bags.clock import Leap
 from diffbot_sim.bags.poses import is_filled
 from diffbot_sim.bags.series import ABSURD, NANOSECONDS, Ordered, Series, Stamps, silence
 from diffbot_sim.records import Run
@@ -39,9 +39,9 @@ def notes_on(usable: Mapping[str, Ordered], run: Run, start: int) -> Iterator[st
     yield from _of_standing(run)
 
 
-def notes_on_clock(series: Series) -> Iterator[str]:
+def notes_on_clock(series: Series, leaps: Iterable[Leap]) -> Iterator[str]:
     """Yield a line for each time that the clock of a topic's stamps was set."""
-    for leap in leaps(series):
+    for leap in leaps:
         at = (series.received[leap.first] - series.received[0]) / NANOSECONDS
         yield (
             f'the stamps of {series.topic} leap by {leap.by / NANOSECONDS:+.3g} s after '

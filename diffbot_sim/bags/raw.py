@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 from diffbot_sim.bags import storage
 from diffbot_sim.bags.messages import STORE
 from diffbot_sim.bags.topics import absolute
-from diffbot_sim.errors import BagError
 
 
 class Raw(NamedTuple):
@@ -61,9 +60,7 @@ def raw_messages(bag: Path, topics: Collection[str], start: int = 0) -> Iterator
 
 @contextmanager
 def _opened(bag: Path) -> Iterator[Any]:
-    try:
+    with storage.naming(bag):
         storage.check_place(bag)
         with storage.opened(bag) as reader:
             yield reader
-    except BagError as error:
-        raise BagError(f'{bag}: {error}') from error

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
-from diffbot_sim.bags.clock import unset
+from diffbot_sim.bags.clock import leaps, unset
 from diffbot_sim.bags.known import known
 from diffbot_sim.bags.notes import notes_on, notes_on_clock
 from diffbot_sim.bags.poses import pose_of, without_broken
 from diffbot_sim.bags.series import NANOSECONDS, Ordered, Series, Stamps, held, ordered
-from diffbot_sim.bags.storage import read_series
+from diffbot_sim.bags.storage import naming, read_series
 from diffbot_sim.bags.topics import Topics
 from diffbot_sim.errors import BagError
 from diffbot_sim.records import Array, Commands, Odometry, Run
@@ -44,18 +44,18 @@ def read_run(path: str | Path, topics: Topics | None = None) -> RecordedRun:
     """
     place = Path(path)
     name = place.stem if place.is_file() else place.resolve().name
-    try:
+    with naming(path):
         return _recorded(name, read_series(place, topics or Topics()))
-    except BagError as error:
-        raise BagError(f'{path}: {error}') from error
 
 
 def _recorded(name: str, series: Mapping[str, Series]) -> RecordedRun:
+    leapt = {role: tuple(leaps(item)) for role, item in series.items()}
+    notes = [note for role, item in series.items() for note in notes_on_clock(item, leapt[role])]
     whole = without_broken(series['odom'])
-    notes = [note for item in series.values() for note in notes_on_clock(item)]
     if whole is not series['odom']:
         notes.append('the poses hold NaN or infinity; used the twists alone')
-    usable, by_header = _usable({**series, 'odom': whole})
+    series = {**series, 'odom': whole}
+    usable, by_header = _usable({role: unset(it, leapt[role]) for role, it in series.items()})
     if not by_header:
         notes.append('not all messages are stamped; used the times of receipt')
     left, right = forces = usable['left_force'], usable['right_force']
@@ -75,11 +75,10 @@ def _usable(series: Mapping[str, Series]) -> tuple[dict[str, Ordered], bool]:
 
     Times of receipt trail the stamps by an unknown delay: they serve for all or for none.
     """
-    mended = {role: unset(item) for role, item in series.items()}
-    by_header = all(item.has_stamps for item in mended.values())
+    by_header = all(item.has_stamps for item in series.values())
     usable = {
         role: ordered(item, item.stamped if by_header else item.received)
-        for role, item in mended.items()
+        for role, item in series.items()
     }
     return usable, by_header
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from diffbot_sim.bags.copying import Saved, copy_messages
 from diffbot_sim.bags.folder import whole_or_not_at_all
 from diffbot_sim.bags.mending import BESIDE, mend
-from diffbot_sim.bags.storage import FORM, STORAGE, check_single, opened
+from diffbot_sim.bags.storage import FORM, STORAGE, check_single, naming, opened
 from diffbot_sim.errors import BagError
 
 
@@ -50,10 +50,8 @@ def _files(bag: Path) -> list[Path]:
     """List the storage files of a bag, the second part before the tenth."""
     if not bag.exists():
         raise BagError(f'{bag}: there is no such bag.')
-    try:
+    with naming(bag):
         check_single(bag)
-    except BagError as error:
-        raise BagError(f'{bag}: {error}') from error
     found = [bag] if bag.is_file() else [file for file in bag.rglob('*') if file.is_file()]
     files = [file for file in found if file.suffix in STORAGE]
     if not files:

@@ -62,6 +62,15 @@ def opened(path: Path) -> Iterator[Any]:
         raise BagError(f'damaged, or cut off while it was recorded ({detail}). {MEND}') from error
 
 
+@contextmanager
+def naming(bag: str | Path) -> Iterator[None]:
+    """Put the name of a bag before what is wrong with it."""
+    try:
+        yield
+    except BagError as error:
+        raise BagError(f'{bag}: {error}') from error
+
+
 def check_single(path: Path) -> None:
     """Raise BagError when a path is a folder of several bags, or of one: which, is to be said."""
     bags = sorted(file.parent.name for file in path.glob(f'*/{METADATA}'))

@@ -21,6 +21,7 @@ from diffbot_sim.report import Origin, origin_of, print_summary, write_report
 RESIDUAL, MODEL = 'residual', 'model.yaml'
 # Lengths that nothing in a drive tells, so that they are not fitted.
 LENGTHS = ('wheel_separation', 'wheel_radius')
+# Guesses at what is fitted.
 GUESSED = ('mass', 'inertia')
 
 
@@ -96,11 +97,11 @@ def _declared(params: Path, out: Path) -> Model:
             f'{params}: the result would take its place. Choose another folder for --out.'
         )
     declared = load_model(params)
-    for names, then in ((LENGTHS, 'taken, and not fitted'), (GUESSED, 'where its fit begins')):
-        for name in left_out(params, 'robot', names):
-            value = getattr(declared.robot, name)
-            unit = next(spec.unit for spec in specs(declared.robot) if spec.name == name)
-            _tell(f'note: {params}: robot.{name} is not given; {value:g} {unit} is {then}')
+    units = {spec.name: spec.unit for spec in specs(declared.robot)}
+    for name in left_out(params, 'robot', (*LENGTHS, *GUESSED)):
+        then = 'taken, and not fitted' if name in LENGTHS else 'where its fit begins'
+        value = f'{getattr(declared.robot, name):g} {units[name]}'
+        _tell(f'note: {params}: robot.{name} is not given; {value} is {then}')
     return declared
 
 

@@ -8,11 +8,11 @@ from dataclasses import replace
 from math import log
 
 from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.recordings.acting import acted_before
 from diffbot_sim.identification.selection.candidates import begun_anew
 from diffbot_sim.identification.selection.evidence import likelihood_ratio
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.statistics.minimisation import flatter
-from diffbot_sim.records import Run
 
 # The longest lead [s], by how little it is moved to see what that does, and how closely it is
 # looked for.
@@ -20,12 +20,6 @@ LONGEST, NUDGE, CLOSELY = 0.1, 5e-4, 1e-4
 ROUNDS = 5
 # A lead that lowers the BIC by more is no chance.
 CLEAR = 10.0
-
-
-def acted_before(run: Run, lead: float) -> Run:
-    """Return a run whose forces acted so long before their stamps [s]."""
-    given = run.commands
-    return replace(run, commands=replace(given, time=given.time - lead))
 
 
 def lead_of(fit: Fit) -> float:

@@ -16,7 +16,7 @@ from diffbot_sim.identification.fitting.units import check_units
 from diffbot_sim.identification.found import Begun, Found
 from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
 from diffbot_sim.identification.later import sets_in_later
-from diffbot_sim.identification.leading import acted_before, lead_of
+from diffbot_sim.identification.leading import lead_of
 from diffbot_sim.identification.odd_ones import denied_by, odd_among
 from diffbot_sim.identification.older import (
     Ages,
@@ -25,6 +25,7 @@ from diffbot_sim.identification.older import (
     is_taken,
     lead_of_means,
 )
+from diffbot_sim.identification.recordings.acting import acted_before
 from diffbot_sim.identification.recordings.checks import check
 from diffbot_sim.identification.recordings.lateness import timely
 from diffbot_sim.identification.recordings.noiseless import (

@@ -37,17 +37,19 @@ def with_term(fit: Fit, structure: Structure, held_out: Sequence[Stretch]) -> Fi
 
 def table_of(structure: Structure) -> EmpiricalForce | EmpiricalWheelForce | None:
     """Return the curve of a structure as a table that the simulator runs, if there is such one."""
-    if not len(structure.knots):
-        return None
-    low, high = float(structure.knots[0]), float(structure.knots[-1])
-    places = np.linspace(low, high, POINTS)
-    points = [float(f) for f in np.interp(places, structure.knots, structure.force)]
     axis, variable = structure.axis, TABLE_OF.get(structure.variable, structure.variable)
     if axis in empirical_force.AXES and variable in empirical_force.VARIABLES:
-        return EmpiricalForce(axis, variable, low, high, *points)
+        return EmpiricalForce(axis, variable, *_points(structure))
     if axis in empirical_wheel_force.AXES and variable in empirical_wheel_force.VARIABLES:
-        return EmpiricalWheelForce(axis, variable, low, high, *points)
+        return EmpiricalWheelForce(axis, variable, *_points(structure))
     return None
+
+
+def _points(structure: Structure) -> list[float]:
+    """Return both ends of a structure's variable, and the force at equal steps between."""
+    low, high = float(structure.knots[0]), float(structure.knots[-1])
+    places = np.linspace(low, high, POINTS)
+    return [low, high, *map(float, np.interp(places, structure.knots, structure.force))]
 
 
 def _error(model: Model, held_out: Sequence[Stretch]) -> float:

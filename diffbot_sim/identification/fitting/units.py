@@ -7,7 +7,8 @@ import numpy as np
 from diffbot_sim.errors import DataError
 from diffbot_sim.identification.fitting.calibration import simulation_errors
 from diffbot_sim.identification.fitting.coordinates import FREE_OF_ROBOT, Space
-from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.recordings.stretches import Stretch, motion_of
+from diffbot_sim.identification.statistics.norms import norm
 from diffbot_sim.records import Array
 
 # Powers of ten that a number in another unit may be wrong by: g, kg·cm².
@@ -19,11 +20,10 @@ LEFT = 0.5
 def check_units(space: Space, stretches: tuple[Stretch, ...]) -> None:
     """Refuse a mass, or an inertia, that moves as the runs do in another unit only: DataError."""
     # Around its mean: that is all that a body leaves which is too heavy to change its speed.
-    motion = np.concatenate([stretch.twist[stretch.used > 0] for stretch in stretches]).std(axis=0)
+    motion = motion_of(stretches)
 
     def errors(point: Array) -> Array:
-        error = simulation_errors(space, stretches, point)
-        return np.asarray(np.sqrt(np.mean(error**2, axis=0)))
+        return norm(simulation_errors(space, stretches, point)).pair
 
     most = LEFT * np.minimum(motion, errors(space.prior()))
     # The mass, which shows in the speed, comes first, then the inertia, in the turn rate.

@@ -10,8 +10,9 @@ from scipy.signal import correlate, correlation_lags
 from diffbot_sim.identification.fitting.calibration import simulation_errors
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.predictor import NO_GAIN, predict
+from diffbot_sim.identification.recordings.acting import acted_before
 from diffbot_sim.identification.recordings.recordings import Recordings
-from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.recordings.stretches import Stretch, motion_of
 from diffbot_sim.identification.statistics.norms import norm, white_noise
 from diffbot_sim.records import Array, Commands, Run
 
@@ -41,10 +42,6 @@ def _driven(run: Run, by: Array) -> Run:
 
 def _told(run: Run, units: Array) -> Run:
     return replace(run, odometry=replace(run.odometry, twist=run.odometry.twist * units))
-
-
-def _later(run: Run, lateness: float) -> Run:
-    return replace(run, commands=replace(run.commands, time=run.commands.time + lateness))
 
 
 RIGHT, LEFT_SIDE = np.diag([-1.0, 1.0]), np.diag([1.0, -1.0])
@@ -96,9 +93,8 @@ def _shares(stretches: tuple[Stretch, ...], space: Space) -> Array:
 
     Around its mean; not a number where it hardly moves.
     """
-    twists = [stretch.twist[stretch.used > 0] for stretch in stretches]
-    motion = np.concatenate(twists).std(axis=0)
-    noise = norm(np.array([white_noise(twist) for twist in twists])).pair
+    motion = motion_of(stretches)
+    noise = norm(np.array([white_noise(s.twist[s.used > 0]) for s in stretches])).pair
     error = norm(simulation_errors(space, stretches, space.prior())).pair
     moves = motion > BEYOND_NOISE * noise + NOTHING
     return np.where(moves, error / np.where(moves, motion, 1.0), np.nan)
@@ -110,7 +106,7 @@ def _clocks(stretches: tuple[Stretch, ...], space: Space) -> Iterator[Fault]:
     if abs(lateness) > LEAST_LATE:
         later = 'later' if lateness > 0.0 else 'earlier'
         words = f'the odometry was stamped about {abs(lateness):.1f} s {later} than the forces'
-        yield Fault(words, partial(_later, lateness=lateness), (0, 1))
+        yield Fault(words, partial(acted_before, lead=-lateness), (0, 1))
 
 
 def _lateness(stretch: Stretch, space: Space) -> float:

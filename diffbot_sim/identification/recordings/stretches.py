@@ -120,6 +120,12 @@ def largest_command(stretches: Sequence[Stretch]) -> float:
     return max(float(np.abs(stretch.run.commands.force).max()) for stretch in stretches)
 
 
+def motion_of(stretches: Sequence[Stretch]) -> Array:
+    """Return how far v and ω are spread around their means where they count, shape (2,)."""
+    used = [stretch.twist[stretch.used > 0] for stretch in stretches]
+    return np.asarray(np.concatenate(used).std(axis=0))
+
+
 def _surplus(time: Array, highest: float) -> int:
     """Return how many samples become one at most at the highest rate [Hz]."""
     interval = mean_interval(time)
