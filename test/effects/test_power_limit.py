@@ -4,7 +4,7 @@ import numpy as np
 from motion import push
 
 from diffbot_sim.physics import Friction, Model
-from diffbot_sim.physics.effects.power_limit import PowerLimit
+from diffbot_sim.physics.effects.power_limit import PowerLimit, weakened
 from diffbot_sim.physics.state import State
 
 LIMITED = Model(friction=Friction('none'), effects=(PowerLimit(4.0),))
@@ -20,3 +20,8 @@ def test_braking_and_slow_wheels_get_what_is_asked():
     for force, v in ((-50.0, 1.0), (50.0, 1e-4)):
         run = push(LIMITED, force, force, 0.01, every=0.01, start=State(v=v))
         np.testing.assert_array_equal(run.traction[0], force)
+
+
+def test_moving_robot_has_nearly_its_full_force_at_the_limit():
+    limit, speed = 4.0, 1.0
+    assert weakened(limit / speed, speed, limit) > 0.99 * limit / speed

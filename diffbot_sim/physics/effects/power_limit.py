@@ -1,6 +1,7 @@
 """A drive that gives its full force at low speed only."""
 
 from dataclasses import dataclass
+from math import hypot
 
 from diffbot_sim.parameters import parameter
 from diffbot_sim.physics.compiled import compiled
@@ -9,9 +10,11 @@ from diffbot_sim.physics.stages import Motion, Stage, Traction, nearly_within
 
 # Shares of the largest power at which the limit may lie.
 SHARES = (0.85, 0.6, 0.35)
-# 2 % are missing at the limit: it falls steeply where the robot is slow, and a nearer corner would
-# cost the integrator more than its tolerance.
-BEND = 32
+# How wide the corner is [m/s], about what a robot gains in a step: a sharper one would cost the
+# integrator more than its tolerance, a wider one what is identified its truth.
+CORNER = 8e-3
+# The bend of a wheel that hardly moves, where 4 % of the force are missing at the limit.
+LEAST_BEND = 16.0
 
 
 @compiled
@@ -19,7 +22,7 @@ def weakened(force: float, speed: float, limit: float) -> float:
     """Return a force [N] that does hardly more work than the limit [W]; braking is not limited."""
     if force * speed <= 0.0:
         return force
-    return nearly_within(force, limit / abs(speed), BEND)
+    return nearly_within(force, limit / abs(speed), hypot(LEAST_BEND, speed / CORNER))
 
 
 @compiled

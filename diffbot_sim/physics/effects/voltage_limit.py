@@ -12,7 +12,7 @@ STALL, NO_LOAD = (1.0, 1.6), (1.05, 1.6)
 # What a motor can give never falls below this share of its stall force.
 LEAST = 1e-3
 # So near to a corner that 0.5 % are missing there: the limit changes no faster than the speed.
-BEND = 128
+BEND = 128.0
 
 
 @compiled
