@@ -1,5 +1,6 @@
 """Bags that cannot be used: each says why in one line."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,7 +9,7 @@ import pytest
 from drives import LEFT, ODOM, RIGHT, START, TIME, drive, messages, stamped
 
 from diffbot_sim.bags import Topics, read_run, write_run
-from diffbot_sim.bags.folder import Message, write_bag
+from diffbot_sim.bags.folder import METADATA, Message, write_bag
 from diffbot_sim.bags.messages import twist
 from diffbot_sim.errors import BagError
 
@@ -124,3 +125,10 @@ def test_a_file_cut_off_anywhere_is_told(tmp_path, share):
     file = tmp_path / 'drive' / 'drive.mcap'
     file.write_bytes(file.read_bytes()[: int(share * file.stat().st_size)])
     assert 'damaged, or cut off' in told(tmp_path / 'drive')
+
+
+def test_a_bag_of_a_later_version_is_not_called_damaged(tmp_path):
+    write_run(tmp_path / 'drive', drive(), START)
+    metadata = tmp_path / 'drive' / METADATA
+    metadata.write_text(re.sub(r'version: \d+', 'version: 99', metadata.read_text()))
+    assert 'of a kind that rosbags cannot read (Rosbag2 version 99' in told(tmp_path / 'drive')

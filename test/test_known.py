@@ -9,6 +9,7 @@ from drives import LEFT, ODOM, START, drive, messages, stamped
 from diffbot_sim.bags import RecordedRun, read_run
 from diffbot_sim.bags.folder import Message, write_bag
 from diffbot_sim.bags.messages import wrench
+from diffbot_sim.errors import BagError
 from diffbot_sim.records import Commands, Odometry, Run
 
 SECOND = 10**9
@@ -50,6 +51,15 @@ def test_a_force_that_is_sent_when_it_changes_is_held(tmp_path, sent):
     found = read(tmp_path, kept)
     assert 'its last force is held' in found.notes[-1]
     assert found.run.odometry.time[-1] == pytest.approx(9.9)
+
+
+@pytest.mark.parametrize('later', [-8, 60])
+def test_one_force_that_shares_no_time_with_the_odometry_is_told(tmp_path, later):
+    shift = START + later * SECOND
+    forces = [stamped(m, shift + 10 * (m.stamp - START)) for m in slowly() if m.topic == LEFT]
+    items = [m for i, m in enumerate(slowly()) if m.topic != LEFT and (m.topic != ODOM or i > 120)]
+    with pytest.raises(BagError, match=f'{LEFT} and odometry do not overlap in time'):
+        read(tmp_path, [*items, *forces])
 
 
 def test_odometry_that_moves_before_forces_begin_is_left_out(tmp_path):

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diffbot_sim.bags.poses import TWIST
-from diffbot_sim.bags.series import LONGEST_SILENCE, NANOSECONDS, Ordered, silence
+from diffbot_sim.bags.series import LONGEST_SILENCE, NANOSECONDS, Ordered, Stamps, silence
+from diffbot_sim.errors import BagError
 from diffbot_sim.standing import is_moving
 
 
@@ -24,13 +25,25 @@ def known(odom: Ordered, forces: Iterable[Ordered]) -> Known:
 
     Before they begin none acts as long as the robot rests. What they end with is held where it is
     none, or where they may have been sent when they changed: not all along, or with pauses.
+    Raises BagError where no odometry is left.
     """
     left, notes = odom, list[str]()
     for force in forces:
         for bound in (_begun, _ended):
             left, told = bound(left, force)
             notes += told
+            if not len(left.stamp):
+                raise apart(force.topic, force.stamp, odom.stamp)
     return Known(left, tuple(notes))
+
+
+def apart(what: str, force: Stamps, odom: Stamps) -> BagError:
+    """Return what is to be said of forces and odometry that have no time in common."""
+    gap = _seconds(max(force[0], odom[0]) - min(force[-1], odom[-1]))
+    return BagError(
+        f'{what} and odometry do not overlap in time, they are {gap:.3g} s apart. Were they '
+        'stamped by different clocks? Give every node the same use_sim_time.'
+    )
 
 
 def _begun(odom: Ordered, force: Ordered) -> Known:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from diffbot_sim.bags.clock import leaps, unset
-from diffbot_sim.bags.known import known
+from diffbot_sim.bags.known import apart, known
 from diffbot_sim.bags.notes import notes_on, notes_on_clock
 from diffbot_sim.bags.poses import pose_of, without_broken
 from diffbot_sim.bags.series import NANOSECONDS, Ordered, Series, Stamps, held, ordered
@@ -90,11 +90,7 @@ def _odometry(odom: Ordered, start: int) -> Odometry:
 
 def _check_overlap(force: Stamps, odom: Stamps) -> None:
     if force[-1] < odom[0] or odom[-1] < force[0]:
-        gap = (max(force[0], odom[0]) - min(force[-1], odom[-1])) / NANOSECONDS
-        raise BagError(
-            f'forces and odometry do not overlap in time, they are {gap:.3g} s apart. Were they '
-            'stamped by different clocks? Give every node the same use_sim_time.'
-        )
+        raise apart('forces', force, odom)
 
 
 def _check_count(odom: Ordered) -> None:

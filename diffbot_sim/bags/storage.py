@@ -51,14 +51,18 @@ def _read(reader: Any, topic: str, role: str) -> Series:
 
 @contextmanager
 def opened(path: Path) -> Iterator[Any]:
-    """Open a bag, or one of its files, for reading; raises BagError where it is damaged."""
+    """Open a bag, or one of its files, for reading; raises BagError where that cannot be done."""
     try:
         with Reader(path) as reader:
             yield reader
     except BagError:
         raise
+    except PermissionError as error:
+        raise BagError(f'may not be read ({error.strerror}). Ask its owner for leave.') from error
     except Exception as error:  # damaged bytes surface as any of struct's, sqlite's, zstd's errors
         detail = ' '.join(str(error).split()).rstrip('.') or type(error).__name__
+        if 'not supported' in detail:
+            raise BagError(f'of a kind that rosbags cannot read ({detail}).') from error
         raise BagError(f'damaged, or cut off while it was recorded ({detail}). {MEND}') from error
 
 
