@@ -4,7 +4,7 @@ from diffbot_sim.identification.conclusions.advice import advice
 from diffbot_sim.identification.result import Estimate
 from diffbot_sim.identification.selection.evidence import Evidence
 from diffbot_sim.identification.selection.stepwise import Selection
-from diffbot_sim.identification.selection.trials import CHANCE, UNSEEN, Trial
+from diffbot_sim.identification.selection.trials import CHANCE, SUPPORTED, UNSEEN, Trial
 from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.physics.effects.yaw_friction import YawFriction
 
@@ -33,7 +33,7 @@ def test_parameter_of_a_wide_interval_asks_for_a_drive() -> None:
 
 
 def test_vague_parameter_of_an_effect_asks_for_the_drive_of_that_effect() -> None:
-    (line,) = advice(selection(), {'slope.grade_x': VAGUE})
+    (line,) = advice(selection(tried(Slope, SUPPORTED)), {'slope.grade_x': VAGUE})
     assert Slope.excitation in line
 
 

@@ -1,6 +1,6 @@
 """Identification of robots like our own, whose truth is known."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -247,3 +247,20 @@ def test_run_without_pose_is_identified_too() -> None:
     run = run_of(with_typical('quadratic_drag'), 8)
     bare = Run(run.name, run.commands, Odometry(run.odometry.time, run.odometry.twist))
     assert [e.name for e in identify([bare], DECLARED).effects] == ['quadratic_drag']
+
+
+@dataclass(frozen=True)
+class OwnDrag(QuadraticDrag):
+    """A law that no library holds."""
+
+    name = 'own_drag'
+
+
+def test_effect_that_no_library_holds_can_be_asked_for():
+    run = run_of(with_typical('quadratic_drag'), 3)
+    assert [it.name for it in identify([run], DECLARED, kinds=[OwnDrag]).effects] == ['own_drag']
+
+
+def test_nothing_to_learn_from_is_refused():
+    with pytest.raises(DataError, match='no run was given to learn from'):
+        identify([], DECLARED)

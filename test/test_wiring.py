@@ -91,6 +91,21 @@ def test_forces_in_another_unit_are_taken_up_by_what_is_fitted(factor: float) ->
     assert told_of(with_forces(drive(), factor, factor)) == ''
 
 
+def test_one_run_by_another_clock_is_told_by_its_name() -> None:
+    late = replace(by_another_clock(drive(), 3.0), name='late')
+    fault = fault_of(Recordings((drive(), late), ()), Space(DECLARED, ()))
+    assert fault is not None
+    assert re.match('the odometry of late was stamped about (2.9|3.0) s later', fault.words)
+
+
+def test_unit_of_the_speed_is_told_where_a_heavier_robot_would_move_alike() -> None:
+    coulomb = Model(friction=Friction('coulomb'))
+    run = with_twist(drive(coulomb, roughness=0.0), 1000.0, 1.0)
+    answer = identify([run], coulomb)
+    assert answer.unexplained is not None
+    assert 'the speed was told in mm/s' in answer.unexplained.description
+
+
 def test_fault_is_the_answer_and_no_effect_is_named() -> None:
     answer = identify([exchanged(drive(roughness=0.0))], DECLARED)
     assert answer.verdict == 'unexplained'

@@ -10,7 +10,7 @@ from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
 from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.selection.evidence import delta_bic
-from diffbot_sim.physics.effects import Effect, laws
+from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array
 
@@ -29,11 +29,10 @@ def contradicted(found: Found) -> tuple[Effect, ...]:
         return ()
     final = found.undoubted.final
     fits = (found.undoubted.base, *((final,) if final.space.kinds else ()))
-    known = laws()
     return tuple(
         effect
         for effect in final.space.declared.effects
-        if effect.name in known and any(_is_contradicted(effect, fit) for fit in fits)
+        if effect.is_sought and any(_is_contradicted(effect, fit) for fit in fits)
     )
 
 
@@ -86,10 +85,15 @@ def explains_better(other: Found, found: Found) -> bool:
     """Say whether a search without declared effects is to be believed, rather than the first."""
     if bool(other.unexplained) != bool(found.unexplained):
         return other.unexplained is None
-    first, second = (it.undoubted.final for it in (found, other))
-    if len(first.whitened) != len(second.whitened):
+    if _as_taken(found) != _as_taken(other):
         return len(other.names) < len(found.names)
-    return delta_bic(first, second) > CLEARLY
+    return delta_bic(found.undoubted.final, other.undoubted.final) > CLEARLY
+
+
+def _as_taken(found: Found) -> tuple[object, ...]:
+    """Return what recordings were taken to be: of other data no deviances can be compared."""
+    count = len(found.undoubted.final.whitened)
+    return count, found.time_constant, found.lead, found.noisy is None
 
 
 def _is_contradicted(effect: Effect, fit: Fit) -> bool:

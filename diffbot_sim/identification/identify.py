@@ -1,6 +1,6 @@
 """From runs and a declared model to what the model lacks."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, replace
 
 from diffbot_sim.identification.conclusions.advice import advice
@@ -27,10 +27,11 @@ from diffbot_sim.identification.result import (
     Identification,
     Structure,
 )
+from diffbot_sim.identification.search import Question
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import Progress, Trial
 from diffbot_sim.identification.simulating import for_simulation
-from diffbot_sim.physics.effects import Effect, library
+from diffbot_sim.physics.effects import Effect, laws
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Run
 
@@ -50,7 +51,8 @@ def identify(
     """
     given = Recordings(tuple(runs), tuple(validate)).each(filled)
     recordings = given.each(unbiased)
-    found, denied = searched(recordings, declared, kinds, progress)
+    known = tuple(laws().values()) if kinds is None else tuple(kinds)
+    found, denied = searched(recordings, Question(declared, known, progress))
     if len(given.all) > 1:
         progress('holding the runs against each other')
     return replace(
@@ -79,7 +81,7 @@ def _concluded(found: Found, declared: Model) -> Identification:
     nominal = estimates(found.recalibrated)
     return Identification(
         verdict=_verdict(selection, unexplained),
-        effects=_effects(selection, known),
+        effects=tuple(_effects(selection, known)),
         unexplained=unexplained,
         nominal=nominal,
         nominal_beside={name: known[name] for name in nominal} if found.names else {},
@@ -105,28 +107,23 @@ def _verdict(selection: Selection, unexplained: Structure | None) -> str:
     return NOTHING_MISSING if unexplained is None else UNEXPLAINED
 
 
-def _effects(selection: Selection, found: Mapping[str, Estimate]) -> tuple[FoundEffect, ...]:
+def _effects(selection: Selection, found: Mapping[str, Estimate]) -> Iterator[FoundEffect]:
     """Describe the effects found, the one with most evidence first."""
-    order = sorted(selection.support, key=lambda name: -selection.support[name].delta_bic)
-    return tuple(
-        FoundEffect(
+    drives = selection.excitation
+    for name in sorted(selection.support, key=lambda name: -selection.support[name].delta_bic):
+        others, own = selection.alternatives[name], f'{name}.'
+        alike = (name, *others) if others else ()
+        yield FoundEffect(
             name=name,
             parameters={
-                key.removeprefix(name + '.'): estimate
+                key.removeprefix(own): estimate
                 for key, estimate in found.items()
-                if key.startswith(name + '.')
+                if key.startswith(own)
             },
             evidence=asdict(selection.support[name]),
-            alternatives=selection.alternatives[name],
-            separate_by=_separate_by(name, selection.alternatives[name]),
+            alternatives=others,
+            separate_by='; '.join(sorted({drives[each] for each in alike})),
         )
-        for name in order
-    )
-
-
-def _separate_by(name: str, alternatives: Sequence[str]) -> str:
-    drives = {library()[other].excitation for other in (name, *alternatives)}
-    return '; '.join(sorted(drives)) if alternatives else ''
 
 
 def _candidate(trial: Trial) -> Candidate:

@@ -48,16 +48,20 @@ from diffbot_sim.records import Run
 
 @dataclass(frozen=True)
 class Question:
-    """What is asked of recordings: which of these effects the declared model lacks."""
+    """What is asked of recordings: which of the effects known the declared model lacks."""
 
     declared: Model
-    kinds: Sequence[type[Effect]]
+    known: Sequence[type[Effect]]
     progress: Progress
 
+    @property
+    def kinds(self) -> tuple[type[Effect], ...]:
+        """The effects to try: what the declared model has is not missing."""
+        present = {effect.name for effect in self.declared.effects}
+        return tuple(kind for kind in self.known if kind.name not in present)
 
-def search(
-    recordings: Recordings, declared: Model, kinds: Sequence[type[Effect]], progress: Progress
-) -> Found:
+
+def search(recordings: Recordings, question: Question) -> Found:
     """Search the structures made of these effects.
 
     Asks, too, whether twists or forces are stamped late, and what begins where runs are held out.
@@ -66,17 +70,23 @@ def search(
     Raises DataError where the runs are too short or do not move, or the declared mass or inertia
     is in another unit.
     """
-    question = Question(declared, kinds, progress)
     fitted, _ = _divided(recordings)
     # What is declared stays the same, however the runs are taken or divided.
-    check_units(Space(declared, ()), fitted)
+    check_units(Space(question.declared, ()), fitted)
     found = _answered(recordings, question)
-    noise = odometry_noise(declared.half_separation)
+    noise = odometry_noise(question.declared.half_separation)
     if not is_integrators(found, noise):
         return found
-    progress('adding the noise of a good odometry')
+    question.progress('adding the noise of a good odometry')
     noisy = recordings.each(partial(with_noise, noise=noise))
     return replace(_answered(noisy, question), noisy=noisy)
+
+
+def recalibrated(recordings: Recordings, question: Question) -> Found:
+    """Recalibrate the declared model, and look for nothing that it lacks."""
+    begun = _begun(recordings, question)
+    alone = select(begun.base, (), begun.held_out, question.progress)
+    return Found(begun.recordings, begun.held_out, begun.recalibrated, alone, alone, None)
 
 
 def _answered(recordings: Recordings, question: Question) -> Found:

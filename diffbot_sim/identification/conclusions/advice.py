@@ -7,7 +7,6 @@ from diffbot_sim.identification.fitting.coordinates import FREE_OF_ROBOT, WIDEST
 from diffbot_sim.identification.result import Estimate
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import UNSEEN
-from diffbot_sim.physics.effects import library
 
 # An interval wider than this share of its value, either way, tells little of a parameter.
 WIDE = 0.2
@@ -27,13 +26,15 @@ def advice(selection: Selection, found: Mapping[str, Estimate]) -> tuple[str, ..
     """Say what is not identifiable and what to drive next, effects first."""
     unseen = [trial.kind for trial in selection.trials if trial.outcome == UNSEEN]
     vague = {name: it for name, it in found.items() if _is_vague(it)}
+    drives = selection.excitation
     return (
         *(
             f'{kind.name} cannot be seen in this drive; it would take {kind.excitation}.'
             for kind in unseen
         ),
         *(
-            f'{name} is {_how(name, it)}; it would take {_drive(name)}.'
+            f'{name} is {_how(name, it)}; it would take '
+            f'{DRIVES.get(name) or drives[name.partition(".")[0]]}.'
             for name, it in vague.items()
         ),
     )
@@ -51,8 +52,3 @@ def _how(name: str, it: Estimate) -> str:
         return 'at the end of its valid range, so this drive leaves it open'
     share = 0.5 * (it.high - it.low) / abs(it.value) if it.value else float('inf')
     return f'known to ±{share:.0%} only' if isfinite(share) and share < 1.0 else 'hardly known'
-
-
-def _drive(name: str) -> str:
-    effect, _, _ = name.partition('.')
-    return DRIVES[name] if name in DRIVES else library()[effect].excitation

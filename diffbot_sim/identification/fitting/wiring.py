@@ -1,6 +1,6 @@
 """Whether the recordings are wired as they should be: sides, signs, units and clocks."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -102,11 +102,19 @@ def _shares(stretches: tuple[Stretch, ...], space: Space) -> Array:
 
 def _clocks(stretches: tuple[Stretch, ...], space: Space) -> Iterator[Fault]:
     """Yield the fault of clocks that differ by what the motion is later than the declared one."""
-    lateness = _lateness(stretches[0], space)
-    if abs(lateness) > LEAST_LATE:
-        later = 'later' if lateness > 0.0 else 'earlier'
-        words = f'the odometry was stamped about {abs(lateness):.1f} s {later} than the forces'
-        yield Fault(words, partial(acted_before, lead=-lateness), (0, 1))
+    late = {stretch.run.name: _lateness(stretch, space) for stretch in stretches}
+    wrong = {name: lag for name, lag in late.items() if abs(lag) > LEAST_LATE}
+    if wrong:
+        most = max(wrong.values(), key=abs)
+        later = 'later' if most > 0.0 else 'earlier'
+        of = '' if len(wrong) == len(late) else f' of {", ".join(wrong)}'
+        words = f'the odometry{of} was stamped about {abs(most):.1f} s {later} than the forces'
+        yield Fault(words, partial(_set_right, late=wrong), (0, 1))
+
+
+def _set_right(run: Run, late: Mapping[str, float]) -> Run:
+    """Return a run whose forces act as much later as its odometry was stamped late [s]."""
+    return acted_before(run, -late.get(run.name, 0.0))
 
 
 def _lateness(stretch: Stretch, space: Space) -> float:

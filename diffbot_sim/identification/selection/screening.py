@@ -57,7 +57,7 @@ class Screen:
     def __init__(self, fit: Fit) -> None:
         self.fit = fit
         jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
-        self._free, self._jacobian = Projection(jacobian), jacobian
+        self._free, self._solve = Projection(jacobian), np.linalg.pinv(jacobian, rcond=1e-8)
         self._errors = self.project(influence(fit.whitened))
         self._scores = dict[type[Effect], Score]()
 
@@ -69,8 +69,7 @@ class Screen:
     def adaptation(self, sensitivity: Array, amount: Array) -> Array:
         """Return how the free parameters shift when an amount of something is added."""
         change = sensitivity.reshape(-1, sensitivity.shape[-1]) @ amount
-        shift, *_ = np.linalg.lstsq(self._jacobian, -change, rcond=1e-8)
-        return np.asarray(shift)
+        return np.asarray(-self._solve @ change)
 
     def project(self, values: Array) -> Array:
         """Take out of values, shape (n, 2) or (n, 2, q), what the free parameters explain."""

@@ -44,6 +44,11 @@ class Selection:
     support: dict[str, Evidence]
     alternatives: dict[str, tuple[str, ...]]
 
+    @property
+    def excitation(self) -> dict[str, str]:
+        """The drive that shows each effect tried best."""
+        return {trial.kind.name: trial.kind.excitation for trial in self.trials}
+
     def withdrawn(self, name: str, held_out: Sequence[Stretch], why: str) -> 'Selection':
         """Return the selection without one of the effects chosen, the others weighed anew."""
         kept, final = [key for key in self.support if key != name], self.without[name]
