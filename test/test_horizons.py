@@ -7,14 +7,14 @@ import pytest
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.conclusions.comparison import compare_models, errors_of
-from diffbot_sim.identification.conclusions.horizons import horizons, state_at
+from diffbot_sim.identification.conclusions.horizons import _ends, horizons, state_at
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.recordings.stretches import Stretch, split
 from diffbot_sim.identification.result import Horizon
 from diffbot_sim.physics import Model, Robot
 from diffbot_sim.physics.effects import library
-from diffbot_sim.records import Run
+from diffbot_sim.records import Odometry, Run
 
 NOISE = Surroundings()
 GAINS = np.array([0.1, 0.01, 0.1, 0.1, 0.01, 0.1])
@@ -96,3 +96,13 @@ def test_runs_of_any_number_are_restarted_at_most_300_times() -> None:
     errors = errors_of(compare_models(HEAVY, HEAVY, final, stretches), 'held_out')
     one = horizons((HEAVY, HEAVY, final.model), final, stretches, errors)[1]
     assert 200 < one.count <= 300
+
+
+def test_horizon_that_ends_in_a_hole_of_the_odometry_is_left_out() -> None:
+    run = rehearse(Model(), random_forces(1, 60.0, -9.0, 11.0), NOISE, 1)
+    kept = (run.odometry.time < 50.0) | (run.odometry.time > 53.0)
+    odometry = Odometry(run.odometry.time[kept], run.odometry.twist[kept])
+    (stretch,) = split([replace(run, odometry=odometry)])[1]
+    told, ends = _ends(stretch, int(np.searchsorted(stretch.time, 49.5)))
+    assert told.tolist() == [False, True]
+    assert stretch.time[ends] == pytest.approx([54.5])

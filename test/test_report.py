@@ -359,3 +359,9 @@ def test_browser_draws_the_figures(tmp_path: Path) -> None:
     assert browsed(tmp_path, 1200, f"drawn + ' drawn, ' + {waiting} + ' waiting'") == (
         '21 drawn, 3 waiting'
     )
+
+
+def test_verdict_tells_of_the_axis_that_got_worse() -> None:
+    worse = replace(by_hand.errors(0.0041), recalibrated=by_hand.ErrorNorm(0.0021, 0.0082))
+    said = sentences.verdict(replace(by_hand.found('yaw_friction'), errors=worse))
+    assert 'held-out speed error rises from 2.10 mm/s to 4.10 mm/s' in said

@@ -6,7 +6,7 @@ from dataclasses import asdict, replace
 from diffbot_sim.identification.conclusions.advice import advice
 from diffbot_sim.identification.conclusions.agreement import agreement
 from diffbot_sim.identification.conclusions.comparison import compare_models, errors_of
-from diffbot_sim.identification.conclusions.empirical import table_of, with_term
+from diffbot_sim.identification.conclusions.empirical import term_in, with_term
 from diffbot_sim.identification.conclusions.horizons import horizons
 from diffbot_sim.identification.conclusions.uncertainty import estimates
 from diffbot_sim.identification.following import follows_nothing
@@ -93,7 +93,7 @@ def _concluded(found: Found, declared: Model) -> Identification:
         comparisons=comparisons,
         # Where no effect was tried the recording is at fault, and no other drive would help.
         advice=advice(selection, known) if selection.trials else (),
-        empirical=table_of(unexplained) if closed and unexplained else None,
+        empirical=term_in(final.model, unexplained) if closed and unexplained else None,
         horizons=horizons(models, watched, held_out, errors),
         runs=agreement(selection.final, found.recordings.all, found.aside),
         near_rest=found.near_rest,

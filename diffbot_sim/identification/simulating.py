@@ -6,7 +6,7 @@ import numpy as np
 
 from diffbot_sim.identification.conclusions.comparison import free_running_error, run_free
 from diffbot_sim.identification.doubt import doubt
-from diffbot_sim.identification.fitting.calibration import simulation_error
+from diffbot_sim.identification.fitting.calibration import simulation_error, simulation_error_at
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
 from diffbot_sim.identification.found import Found
@@ -43,9 +43,8 @@ def for_simulation(found: Found) -> Fit:
 def _simulating(space: Space, stretches: tuple[Stretch, ...], predicted: Array) -> Fit | None:
     """Return a fit by simulation error, if that is much less than at a predicted point."""
     simulated = fit_simulation(space, stretches, predicted)
-    as_predicted = fit_simulation(space, stretches, predicted, evaluations=1)
-    better = simulation_error(simulated) < simulation_error(as_predicted) - SIMULATION_MARGIN
-    return simulated if better else None
+    most = simulation_error_at(space, stretches, predicted) - SIMULATION_MARGIN
+    return simulated if simulation_error(simulated) < most else None
 
 
 def is_integrators(found: Found, noise: Array) -> bool:

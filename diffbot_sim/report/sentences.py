@@ -1,7 +1,7 @@
 """The words of the report: what was found, how sure it is, and in which units."""
 
 from collections.abc import Sequence
-from math import isfinite, sqrt
+from math import inf, isfinite, log, sqrt
 
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
@@ -150,7 +150,9 @@ def _fall(errors: Errors) -> str:
     if before == after:
         turning = after.omega_rmse * floor.v_rmse > after.v_rmse * floor.omega_rmse
     else:
-        turning = before.omega_rmse * after.v_rmse > before.v_rmse * after.omega_rmse
+        turning = _change(before.omega_rmse, after.omega_rmse) > _change(
+            before.v_rmse, after.v_rmse
+        )
     what, said = ('turn-rate', _rate) if turning else ('speed', _speed)
     key = 'omega_rmse' if turning else 'v_rmse'
     old, new, least = (getattr(norm, key) for norm in (before, after, floor))
@@ -158,6 +160,11 @@ def _fall(errors: Errors) -> str:
         return f'held-out {what} error {said(old)}; noise floor {said(least)}'
     change = f'{"falls" if new < old else "rises"} from {said(old)} to {said(new)}'
     return f'held-out {what} error {change}; noise floor {said(least)}'
+
+
+def _change(before: float, after: float) -> float:
+    """Return by which factor an error fell or rose, as a logarithm; endless from or to nothing."""
+    return abs(log(after / before)) if before > 0.0 < after else inf
 
 
 def structure(left: Structure) -> str:

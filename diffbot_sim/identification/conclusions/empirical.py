@@ -10,10 +10,11 @@ from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.physics.effects import empirical_force, empirical_wheel_force
-from diffbot_sim.physics.effects.empirical_force import POINTS, EmpiricalForce
+from diffbot_sim.physics.effects.empirical_force import POINT_NAMES, POINTS, EmpiricalForce
 from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForce
 from diffbot_sim.physics.model import Model
 
+Table = EmpiricalForce | EmpiricalWheelForce
 # What the table of a structure runs over, where that is not the structure's own variable.
 TABLE_OF = {'constant': 'time', 'rolling': 'wheel_speed', 'turning': 'omega'}
 # The term is kept when it lowers the held-out error, v and ω together, by this share.
@@ -23,10 +24,11 @@ WORTHWHILE = 0.02
 def with_term(fit: Fit, structure: Structure, held_out: Sequence[Stretch]) -> Fit | None:
     """Return the fit with the structure as a table in its model, if that simulates better.
 
-    Judged by the free-running error on held-out data; None where no table can look at the
-    variable, or where the error does not fall.
+    A declared table is added to. Judged by the free-running error on held-out data; None where no
+    table can look at the variable, a declared one looks at another, or the error does not fall.
     """
-    table = table_of(structure)
+    table = _table_of(structure)
+    table = table and _added(table, fit.space.declared)
     if table is None:
         return None
     space = replace(fit.space, declared=fit.space.declared.with_effect(table))
@@ -35,7 +37,16 @@ def with_term(fit: Fit, structure: Structure, held_out: Sequence[Stretch]) -> Fi
     return trial if after < before + np.log(1.0 - WORTHWHILE) else None
 
 
-def table_of(structure: Structure) -> EmpiricalForce | EmpiricalWheelForce | None:
+def term_in(model: Model, structure: Structure) -> Table | None:
+    """Return the table of a model that stands for a structure, if there is such one."""
+    table = _table_of(structure)
+    alike = (
+        it for it in model.effects if isinstance(it, Table) and table and _is_alike(it, table)
+    )
+    return next(alike, None)
+
+
+def _table_of(structure: Structure) -> Table | None:
     """Return the curve of a structure as a table that the simulator runs, if there is such one."""
     axis, variable = structure.axis, TABLE_OF.get(structure.variable, structure.variable)
     if axis in empirical_force.AXES and variable in empirical_force.VARIABLES:
@@ -43,6 +54,24 @@ def table_of(structure: Structure) -> EmpiricalForce | EmpiricalWheelForce | Non
     if axis in empirical_wheel_force.AXES and variable in empirical_wheel_force.VARIABLES:
         return EmpiricalWheelForce(axis, variable, *_points(structure))
     return None
+
+
+def _added(table: Table, declared: Model) -> Table | None:
+    """Return a table and what a declared one of its kind holds, in one; None if they differ."""
+    there = next((it for it in declared.effects if isinstance(it, type(table))), None)
+    if there is None:
+        return table
+    if not _is_alike(there, table):
+        return None
+    both = (there, table)
+    places = np.linspace(min(it.low for it in both), max(it.high for it in both), POINTS)
+    force = sum(np.interp(places, np.linspace(it.low, it.high, POINTS), it.points) for it in both)
+    points = zip(POINT_NAMES, np.asarray(force).tolist(), strict=True)
+    return replace(table, low=float(places[0]), high=float(places[-1]), **dict(points))
+
+
+def _is_alike(one: Table, other: Table) -> bool:
+    return (one.name, one.axis, one.variable) == (other.name, other.axis, other.variable)
 
 
 def _points(structure: Structure) -> list[float]:

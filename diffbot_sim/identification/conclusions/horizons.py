@@ -25,6 +25,8 @@ from diffbot_sim.records import Array
 AHEAD = (1.0, 5.0)
 # Restarts are this far apart [s], or farther, so that so many do for all stretches together.
 SPACING, MOST_RESTARTS = 0.2, 300
+# A sample stands for the end of a horizon up to so many intervals from it.
+LATEST = 1.5
 
 
 def horizons(
@@ -41,7 +43,7 @@ def horizons(
 
 
 def _one_step(models: Sequence[Model], final: Fit, held_out: Sequence[Stretch]) -> Horizon:
-    """Pool the innovations once the predictor has settled."""
+    """Pool the innovations once the predictor has settled; one after a hole is no single step."""
 
     def innovations(model: Model) -> Array:
         return np.concatenate(
@@ -57,7 +59,7 @@ def _one_step(models: Sequence[Model], final: Fit, held_out: Sequence[Stretch]) 
 
 
 def _settled(stretch: Stretch) -> NDArray[np.bool_]:
-    return np.asarray(stretch.time > stretch.time[0] + WINDOW)
+    return np.asarray((stretch.time > stretch.time[0] + WINDOW) & (stretch.used > 0))
 
 
 def _restarted(models: Sequence[Model], final: Fit, held_out: Sequence[Stretch]) -> list[Horizon]:
@@ -78,19 +80,27 @@ def _errors(models: Sequence[Model], final: Fit, stretch: Stretch, spacing: floa
     """Return measured - simulated twist: restarts × models × AHEAD × (v, ω); NaN past the end."""
     time = stretch.time
     speeds = predict(final.model, stretch, final.gains).twist
-    moments = np.searchsorted(time, np.arange(time[0] + WINDOW, time[-1] - AHEAD[0], spacing))
+    wanted = np.arange(time[0] + WINDOW, time[-1] - AHEAD[0], spacing)
+    moments = np.unique(np.searchsorted(time, wanted))
     errors = np.full((len(moments), len(models), len(AHEAD), 2), np.nan)
     for row, moment in enumerate(moments):
-        start = state_at(stretch, speeds, moment)
-        ends = np.searchsorted(time, time[moment] + np.array(AHEAD) - 1e-6)
-        ends = ends[ends < len(time)]
+        start, (told, ends) = state_at(stretch, speeds, moment), _ends(stretch, moment)
         # What is told at an end may be a mean since the sample before.
         stamps = np.unique([moment, *(ends - 1), *ends])
         for column, model in enumerate(models):
             run = simulated(model, stretch, time[stamps], start, MAX_STEP)
             at_ends = run.twist[np.searchsorted(stamps, ends)]
-            errors[row, column, : len(ends)] = stretch.twist[ends] - at_ends
+            errors[row, column, told] = stretch.twist[ends] - at_ends
     return errors
+
+
+def _ends(stretch: Stretch, moment: int) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+    """Return which horizons are told of, and the samples at their ends: none behind a hole."""
+    time = stretch.time
+    wanted = time[moment] + np.array(AHEAD)
+    ends = np.minimum(np.searchsorted(time, wanted - 1e-6), len(time) - 1)
+    told = np.abs(time[ends] - wanted) < LATEST * stretch.interval
+    return told, ends[told]
 
 
 def state_at(stretch: Stretch, speeds: Array, moment: int) -> State:

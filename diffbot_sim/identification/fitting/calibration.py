@@ -8,6 +8,7 @@ from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import UNIT, Fit, fit_simulation, whitened
 from diffbot_sim.identification.fitting.predictor import NO_GAIN
 from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.statistics.minimisation import scale
 from diffbot_sim.identification.statistics.robust import huber
 from diffbot_sim.records import Array
 
@@ -21,8 +22,8 @@ def calibrate(space: Space, stretches: tuple[Stretch, ...]) -> Fit:
     """Fit by simulation error; the error surface has local minima, hence the several starts."""
     starts = _starts(space)
     errors = [simulation_errors(space, stretches, start) for start in starts]
-    scale = np.maximum(np.median([np.mean(np.abs(e), axis=0) for e in errors], axis=0), 1e-12)
-    order = np.argsort([float(huber(e / scale).sum()) for e in errors])[:FOLLOWED]
+    usual = np.maximum(np.median([np.mean(np.abs(e), axis=0) for e in errors], axis=0), 1e-12)
+    order = np.argsort([float(huber(e / usual).sum()) for e in errors])[:FOLLOWED]
     followed = [fit_simulation(space, stretches, starts[index], SHORT) for index in order]
     return fit_simulation(space, stretches, min(followed, key=simulation_error).u)
 
@@ -35,6 +36,11 @@ def simulation_errors(space: Space, stretches: tuple[Stretch, ...], point: Array
 def simulation_error(fit: Fit) -> float:
     """Return the logarithm of the generalised variance of a fit's errors."""
     return float(np.log(fit.sigma).sum())
+
+
+def simulation_error_at(space: Space, stretches: tuple[Stretch, ...], point: Array) -> float:
+    """Return that of a point, as it is."""
+    return float(np.log(scale(simulation_errors(space, stretches, point))).sum())
 
 
 def _starts(space: Space) -> list[Array]:

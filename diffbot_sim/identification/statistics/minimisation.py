@@ -92,16 +92,17 @@ def minimise(
     inside, known = np.clip(start, low, high), _Remembered(errors, bounds)
     margin = 1e-9 * np.maximum(1.0, np.abs(inside))
     point = np.clip(inside, low + margin, high - margin)
-    sigma = _scale(known.errors(point))
+    sigma = scale(known.errors(point))
     for _ in range(rounds):
         point, converged = _least_squares(known, point, prior, bounds, sigma, evaluations)
-        last, sigma = sigma, _scale(known.errors(point))
+        last, sigma = sigma, scale(known.errors(point))
         if converged and np.all(np.abs(sigma / last - 1.0) < SETTLED):
             break
     return point, sigma
 
 
-def _scale(errors: Array) -> Array:
+def scale(errors: Array) -> Array:
+    """Return the robust scale of errors, shape (2,), no finer than any can be."""
     return np.asarray(np.maximum(scale_of(errors), FINEST))
 
 

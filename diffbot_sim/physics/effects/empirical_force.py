@@ -11,6 +11,7 @@ from diffbot_sim.physics.stages import Load, Motion, Stage, pushed
 AXES = ('v', 'omega')
 VARIABLES = ('v', 'omega', 'heading', 'wheel_angle', 'time')
 POINTS = 12
+POINT_NAMES = tuple(f'point_{i + 1}' for i in range(POINTS))
 # Unlike these, other variables keep the value at the end of the table beyond it.
 PERIODIC = ('heading', 'wheel_angle')
 _FIRST_PERIODIC, _LAST_PERIODIC = (VARIABLES.index(name) for name in PERIODIC)
@@ -89,4 +90,4 @@ class EmpiricalForce(Effect):
     @property
     def points(self) -> tuple[float, ...]:
         """The table [N or N·m]."""
-        return tuple(getattr(self, f'point_{i + 1}') for i in range(POINTS))
+        return tuple(getattr(self, name) for name in POINT_NAMES)

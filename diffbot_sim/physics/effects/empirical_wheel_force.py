@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from diffbot_sim.parameters import parameter
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.effects.effect import Effect
-from diffbot_sim.physics.effects.empirical_force import POINTS, at_place, table_point
+from diffbot_sim.physics.effects.empirical_force import POINT_NAMES, POINTS, at_place, table_point
 from diffbot_sim.physics.stages import Motion, Stage, Traction
 
 AXES = ('wheels', 'difference')
@@ -61,3 +61,8 @@ class EmpiricalWheelForce(Effect):
     point_10: float = table_point(9)
     point_11: float = table_point(10)
     point_12: float = table_point(11)
+
+    @property
+    def points(self) -> tuple[float, ...]:
+        """The table [N]."""
+        return tuple(getattr(self, name) for name in POINT_NAMES)
