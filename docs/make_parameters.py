@@ -52,7 +52,8 @@ def page() -> str:
 def _effect(kind: type[Effect]) -> Iterator[str]:
     yield f'### `{kind.name}`\n'
     meaning = kind.meaning[0].upper() + kind.meaning[1:]
-    yield f'{meaning}. Source: {kind.source}. Shown by {kind.excitation}.\n'
+    law = ' '.join((kind.__doc__ or '').split())
+    yield f'{meaning}. **Law:** {law} Source: {kind.source}. Shown by {kind.excitation}.\n'
     yield _table(_named(kind, f'effects.{kind.name}.'))
 
 
