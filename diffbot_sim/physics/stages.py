@@ -14,7 +14,7 @@ from numba import types
 from diffbot_sim.physics.compiled import compiled
 
 # A force below this share of a limit is what it was.
-FAR_BELOW = 0.1
+FAR_BELOW = 0.05
 
 
 class Stage(IntEnum):
@@ -137,8 +137,8 @@ def nearly_within(force: float, limit: float, bend: float) -> float:
     """Return a force [N] cut off at ±limit; at the limit itself 1 - 2^(-1/bend) of it is missing.
 
     For limits that depend on the motion: a corner there would cost the integrator its order, and
-    a wide bend what is identified its truth. Beyond ten times or a tenth of the limit a bend of
-    16 or more is a corner, to the last bit.
+    a wide bend what is identified its truth. Beyond twenty times or a twentieth of the limit a
+    bend of 12 or more is a corner, to the last bit.
     """
     asked = abs(force) / limit
     if asked <= FAR_BELOW:

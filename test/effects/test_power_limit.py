@@ -16,12 +16,18 @@ def test_speed_grows_with_the_root_of_time():
     np.testing.assert_allclose(run.twist[:, 0], expected, rtol=1e-6)
 
 
-def test_braking_and_slow_wheels_get_what_is_asked():
+def test_slow_wheels_and_brakes_without_a_limit_get_what_is_asked():
     for force, v in ((-50.0, 1.0), (50.0, 1e-4)):
         run = push(LIMITED, force, force, 0.01, every=0.01, start=State(v=v))
         np.testing.assert_array_equal(run.traction[0], force)
 
 
+def test_brakes_take_no_more_than_their_power():
+    model = Model(friction=Friction('none'), effects=(PowerLimit(4.0, 2.0),))
+    run = push(model, -50.0, -50.0, 0.1, every=0.1, start=State(v=1.0))
+    np.testing.assert_allclose(run.traction[0], -2.0)
+
+
 def test_moving_robot_has_nearly_its_full_force_at_the_limit():
     limit, speed = 4.0, 1.0
-    assert weakened(limit / speed, speed, limit) > 0.99 * limit / speed
+    assert weakened(limit / speed, speed, limit, limit) > 0.99 * limit / speed

@@ -1,6 +1,7 @@
 """voltage_limit: on full force a body nears the no-load speed as its closed form says."""
 
 import numpy as np
+import pytest
 from motion import push
 
 from diffbot_sim.physics import Friction, Model
@@ -18,9 +19,11 @@ def test_speed_nears_no_load_speed_exponentially():
     np.testing.assert_allclose(run.twist[:, 0], expected, rtol=1e-6, atol=1e-9)
 
 
-def test_braking_is_limited_as_at_rest():
-    run = push(LIMITED, -500.0, -500.0, 0.2, start=State(v=0.7))
-    np.testing.assert_allclose(run.traction[:, 0], -10.0, rtol=1e-9)
+@pytest.mark.parametrize(('braking', 'force'), [(0.0, 10.0), (1.0, 18.75), (-1.0, 1.25)])
+def test_braking_is_limited_as_at_rest_or_more_or_less_the_faster(braking, force):
+    model = Model(friction=Friction('none'), effects=(VoltageLimit(10.0, 0.8, braking),))
+    run = push(model, -500.0, -500.0, 0.01, every=0.01, start=State(v=0.7))
+    np.testing.assert_allclose(run.traction[0], -force, rtol=1e-9)
 
 
 def test_what_is_far_below_the_limit_is_left_alone():

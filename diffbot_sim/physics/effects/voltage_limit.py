@@ -1,6 +1,7 @@
 """A motor on a supply of limited voltage: what it can give falls in a line with speed."""
 
 from dataclasses import dataclass
+from itertools import product
 
 from diffbot_sim.parameters import parameter
 from diffbot_sim.physics.compiled import compiled
@@ -9,6 +10,8 @@ from diffbot_sim.physics.stages import FAR_BELOW, Motion, Stage, Traction, nearl
 
 # Stall forces over the largest command, and no-load speeds over the largest speed, to start from.
 STALL, NO_LOAD = (1.0, 1.6), (1.05, 1.6)
+# How brakes may be limited: by the current, too; as the motor drives.
+BRAKING = (0.0, -1.0)
 # What a motor can give never falls below this share of its stall force.
 LEAST = 1e-3
 # So near to a corner that 0.5 % are missing there: the limit changes no faster than the speed.
@@ -16,33 +19,40 @@ BEND = 128.0
 
 
 @compiled
-def offered(force: float, speed: float, stall: float, no_load: float) -> float:
-    """Return a force [N] that is hardly more than the motor can give while it drives."""
+def offered(force: float, speed: float, stall: float, no_load: float, braking: float) -> float:
+    """Return a force [N] that is hardly more than the motor can give."""
     if abs(force) <= FAR_BELOW * LEAST * stall:
         return force
-    driving = abs(speed) if force * speed > 0.0 else 0.0
-    return nearly_within(force, stall * max(1.0 - driving / no_load, LEAST), BEND)
+    share = abs(speed) / no_load
+    left = 1.0 - share if force * speed > 0.0 else 1.0 + braking * share
+    return nearly_within(force, stall * max(left, LEAST), BEND)
 
 
 @compiled
-def limited(at: Motion, traction: Traction, stall: float, no_load: float) -> Traction:
+def limited(
+    at: Motion, traction: Traction, stall: float, no_load: float, braking: float
+) -> Traction:
     """Limit the force of each wheel by its speed."""
     return Traction(
-        offered(traction.right, at.speed_right, stall, no_load),
-        offered(traction.left, at.speed_left, stall, no_load),
+        offered(traction.right, at.speed_right, stall, no_load, braking),
+        offered(traction.left, at.speed_left, stall, no_load, braking),
     )
 
 
 @dataclass(frozen=True)
 class VoltageLimit(Effect):
-    """Force on each wheel of at most stall·(1 - |v|/no_load) while it drives, rounded there."""
+    """Force on each wheel of at most stall·(1 - |v|/no_load) while it drives, rounded there.
+
+    While it brakes, of at most stall·(1 + braking·|v|/no_load): 1 is a motor on its supply alone,
+    0 one whose current is limited, too, -1 one that brakes as it drives.
+    """
 
     name = 'voltage_limit'
     meaning = 'the largest force of each wheel falls in a line with its speed'
     source = 'torque-speed line of a DC motor (Hughes and Drury, Electric Motors and Drives, 2019)'
     stage = Stage.ACTUATOR
     kernel = limited
-    guesses = ((10.0, 1.0), (4.0, 0.5))
+    guesses = ((10.0, 1.0, 1.0), (4.0, 0.5, -1.0))
     essential = ('no_load_speed',)
     excitation = 'the strongest commands, from rest until the robot is fast'
 
@@ -64,8 +74,17 @@ class VoltageLimit(Effect):
         reciprocal=True,
         meaning='speed at which nothing is left of it',
     )
+    braking: float = parameter(
+        0.0,
+        unit='-',
+        low=-1.0,
+        high=1.0,
+        scale=1.0,
+        meaning='by which share of that line it grows with speed while the wheel brakes',
+    )
 
     @classmethod
     def starts(cls, drive: Excitation) -> tuple[tuple[float, ...], ...]:
         """Try some lines that the strongest commands of the drive cross."""
-        return tuple((a * drive.force, b * drive.speed) for a in STALL for b in NO_LOAD)
+        lines = product(STALL, NO_LOAD, BRAKING)
+        return tuple((a * drive.force, b * drive.speed, braking) for a, b, braking in lines)
