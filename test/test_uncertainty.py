@@ -14,6 +14,7 @@ from diffbot_sim.identification.fitting.fit import fit_simulation
 from diffbot_sim.identification.recordings.stretches import whole
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.payload_change import PayloadChange
+from diffbot_sim.physics.effects.power_limit import PowerLimit
 from diffbot_sim.records import Commands
 
 SPACE = Space(Model(), ())
@@ -30,6 +31,13 @@ def test_parameter_that_a_bound_stopped_is_marked_and_no_other() -> None:
 def test_interval_of_a_mass_follows_from_its_logarithm() -> None:
     mass = estimates_at(SPACE, SPACE.prior(), 1e-4 * np.eye(len(NAMES)))['mass']
     np.testing.assert_allclose(mass.high - mass.value, 10.0 * 0.01 * 2.02, rtol=0.01)
+
+
+def test_limit_that_does_not_show_is_known_from_below() -> None:
+    space = Space(Model(), (PowerLimit,))
+    power = estimates_at(space, space.prior(), 1e-4 * np.eye(len(NAMES) + 2))['power_limit.power']
+    np.testing.assert_allclose(power.low, 10.0 / (0.01 * 2.02), rtol=0.01)
+    assert power.high == 1e9
 
 
 def test_interval_reaches_across_a_hollow_of_the_likelihood() -> None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from scipy import stats
 
-from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.coordinates import Coordinate, Space
 from diffbot_sim.identification.fitting.fit import GAIN_LIMITS, Fit
 from diffbot_sim.identification.result import Estimate
 from diffbot_sim.identification.statistics.blocks import BLOCKS, jackknife
@@ -113,11 +113,22 @@ def estimates_at(space: Space, u: Array, spread: Array) -> dict[str, Estimate]:
     middle = np.array(list(values.values()))
     lowest, highest = np.transpose([coordinate.valid for coordinate in space.coordinates])
     lows, highs = (np.clip(ends, lowest, highest) for ends in (middle - reach, middle + reach))
+    for index, coordinate in enumerate(space.coordinates):
+        if coordinate.reciprocal:  # beyond any size it may be as good as none
+            far = QUANTILE * float(np.sqrt(spread[index, index]))
+            lows[index], highs[index] = _reciprocal_ends(coordinate, float(u[index]), far)
     facts = zip(space.coordinates, lows, highs, at_bound(space, u), strict=True)
     return {
         it.name: Estimate(values[it.name], float(low), float(high), it.unit, bool(stopped))
         for it, low, high, stopped in facts
     }
+
+
+def _reciprocal_ends(coordinate: Coordinate, at: float, reach: float) -> tuple[float, float]:
+    """Return the lowest and highest value of a parameter whose coordinate is known so well."""
+    ends = np.clip([at - reach, at + reach], coordinate.low, coordinate.high)
+    highest, lowest = map(coordinate.value, ends.tolist())
+    return lowest, highest
 
 
 def at_bound(space: Space, u: Array) -> Array:

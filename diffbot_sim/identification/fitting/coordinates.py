@@ -28,7 +28,7 @@ class Coordinate:
     """One number of a fit: dimensionless, of order one, `prior` where nothing is known.
 
     value turns it into the parameter's own unit, in which valid are its lowest and highest value;
-    deviation: the standard deviation of the prior.
+    deviation: the standard deviation of the prior; reciprocal: whether it is one over a parameter.
     """
 
     name: str
@@ -39,6 +39,7 @@ class Coordinate:
     value: Callable[[float], float]
     valid: tuple[float, float]
     deviation: float = PRIOR_DEVIATION
+    reciprocal: bool = False
 
 
 @dataclass(frozen=True)
@@ -134,7 +135,8 @@ def _of_effect(kind: type[Effect], spec: Spec) -> Coordinate:
     deviation = NO_PRIOR if spec.name in kind.shape else deviation
     name = f'{kind.name}.{spec.name}'
     low, high, valid = min(ends), max(ends), (spec.low, spec.high)
-    return Coordinate(name, spec.unit, neutral, low, high, value, valid, deviation)
+    fixed = (name, spec.unit, neutral, low, high, value, valid, deviation)
+    return Coordinate(*fixed, reciprocal=spec.reciprocal)
 
 
 def _in_scale(spec: Spec, value: float) -> float:

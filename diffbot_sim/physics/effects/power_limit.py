@@ -50,7 +50,7 @@ class PowerLimit(Effect):
     stage = Stage.ACTUATOR
     kernel = limited
     guesses = ((10.0, UNLIMITED), (3.0, 3.0))
-    excitation = 'the strongest commands, held until the robot is fast'
+    excitation = 'the strongest commands, held until it is fast, and against its motion'
 
     power: float = parameter(
         UNLIMITED,
