@@ -15,7 +15,6 @@ from diffbot_sim.identification.conclusions.uncertainty import estimates
 from diffbot_sim.identification.fitting.calibration import calibrate
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
-from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import split
 from diffbot_sim.physics import Model
@@ -57,7 +56,7 @@ def judged(floor: str, seed: int) -> dict[str, bool]:
 def fitted(run: Run, known: Model) -> Fit:
     """Fit the numbers of a robot that is declared as it is."""
     stretches = split([run])[0]
-    stretches = restarted(calibrate(Space(known, ()), stretches).model, stretches, MAX_STEP)
+    stretches = restarted(calibrate(Space(known, ()), stretches).model, stretches)
     space = Space(known, tuple(kind for name, kind in laws().items() if name in FREE))
     return fit_prediction(space, stretches, space.prior(), FIRST_GAINS)
 

@@ -12,7 +12,7 @@ from diffbot_sim.bags.messages import STORE
 from diffbot_sim.bags.raw import USUAL, Offer, Raw
 from diffbot_sim.errors import BagError
 
-MCAP, SQLITE3 = 'mcap', 'sqlite3'
+MCAP = 'mcap'
 
 
 class RawWriter:

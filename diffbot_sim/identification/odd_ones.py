@@ -7,7 +7,6 @@ import numpy as np
 from diffbot_sim.identification.conclusions.agreement import odd_runs
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction, whitened
-from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import whole
@@ -37,7 +36,7 @@ def odd_among(found: Found) -> frozenset[int]:
 
 def _explained_worse(fit: Fit, runs: Sequence[Run]) -> frozenset[int]:
     """Return which runs a fit explains clearly worse than it does most."""
-    stretches = restarted(fit.model, whole(runs), MAX_STEP)
+    stretches = restarted(fit.model, whole(runs))
     errors = (whitened((it,), fit.model, fit.gains, fit.sigma) for it in stretches)
     squares = np.array([np.mean(influence(it) ** 2) for it in errors])
     return frozenset(np.flatnonzero(squares > WORSE * np.median(squares)).tolist())

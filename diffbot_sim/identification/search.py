@@ -10,7 +10,6 @@ from diffbot_sim.identification.fitting.calibration import calibrate, simulation
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filtering import filter_behind, unfiltered
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, fit_prediction, fit_simulation
-from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.fitting.units import check_units
 from diffbot_sim.identification.found import Begun, Found
@@ -244,7 +243,7 @@ def _begun(recordings: Recordings, question: Question) -> Begun:
     fitted, held_out = _divided(recordings)
     question.progress('calibrating the declared model')
     recalibrated = calibrate(Space(question.declared, ()), fitted)
-    fitted = restarted(recalibrated.model, fitted, MAX_STEP)
+    fitted = restarted(recalibrated.model, fitted)
     question.progress('fitting the noise model')
     near = fit_prediction(recalibrated.space, fitted, recalibrated.u, FIRST_GAINS)
     base = shaken(near)

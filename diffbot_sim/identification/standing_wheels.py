@@ -13,7 +13,6 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction, whitened
-from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
@@ -39,7 +38,7 @@ def standing(found: Found) -> Recordings | None:
     is_known = any(any(run.rolled) for run in recordings.all)
     if WheelRipple.name not in found.names or len(recordings.all) < 2 or is_known:
         return None
-    stretches = restarted(final.model, whole(recordings.all), MAX_STEP)
+    stretches = restarted(final.model, whole(recordings.all))
     first = min(set(range(len(recordings.learned))) - recordings.aside)
     told = fit_prediction(final.space, (stretches[first],), final.u, final.gains)
     rolled = [_rolled(told, s) if s is not stretches[first] else NOWHERE for s in stretches]

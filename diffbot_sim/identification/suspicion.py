@@ -3,8 +3,6 @@
 from math import inf
 from typing import NamedTuple
 
-from diffbot_sim.identification.fitting.shaking import shaken
-from diffbot_sim.identification.selection.candidates import reduce
 from diffbot_sim.identification.selection.evidence import delta_bic
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import BEREFT, INCREDIBLE, Trial
@@ -66,11 +64,8 @@ def weakest(selection: Selection) -> tuple[float, str]:
 
 
 def _worth_without_luck(trial: Trial) -> float:
-    """Return by how much an effect lowers the BIC, held against its fit without the effect, too.
-
-    That may be better than the one that it was tried on: fits end in any of many hollows.
-    """
-    if trial.fit is None or trial.evidence.delta_bic < SUSPICIOUS:
-        return trial.evidence.delta_bic
-    alone = shaken(reduce(trial.fit, trial.kind.name))
-    return min(trial.evidence.delta_bic, delta_bic(alone, trial.fit))
+    """Return by how much an effect lowers the BIC, held against its fit without it, too."""
+    worth = trial.evidence.delta_bic
+    if worth < SUSPICIOUS or trial.fit is None or trial.without is None:
+        return worth
+    return min(worth, delta_bic(trial.without, trial.fit))

@@ -32,6 +32,8 @@ from diffbot_sim.report.errors import LABELS, error_rows, models_shown
 from diffbot_sim.report.numerals import significant
 
 SMALL = 250
+# Residuals are drawn against so many variables.
+SHOWN = 3
 FORCE, TORQUE = 'force [N]', 'torque [N·m]'
 
 
@@ -84,13 +86,13 @@ def _path(run: Comparison, pose: Array, models: tuple[str, ...]) -> Figure:
     return Figure('Path in the plane', 'All start from the measured pose.', data, plane(460))
 
 
-def residual_figures(result: Identification, each: int = 3) -> list[Figure]:
+def residual_figures(result: Identification) -> list[Figure]:
     """Draw the residuals before and after against the variables that explain most of them."""
     models = models_shown(result)[-2:]
     return [
         _dependence(result.comparisons, models, axis_, name)
         for axis_ in range(2)
-        for name in strongest(result.comparisons, models[0], axis_)[:each]
+        for name in strongest(result.comparisons, models[0], axis_)[:SHOWN]
     ]
 
 

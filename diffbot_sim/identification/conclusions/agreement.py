@@ -18,7 +18,6 @@ from scipy import stats
 from diffbot_sim.identification.conclusions.comparison import run_free
 from diffbot_sim.identification.conclusions.uncertainty import estimates_at
 from diffbot_sim.identification.fitting.fit import Fit, fit_with_noise_held
-from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch, whole
 from diffbot_sim.identification.result import Difference, Estimate, RunCheck
@@ -96,7 +95,7 @@ def odd_runs(joint: Fit, runs: Sequence[Run]) -> frozenset[int]:
 
 
 def _each_alone(joint: Fit, runs: Sequence[Run]) -> tuple[list[Fit], list[Share]]:
-    fits = [alone(joint, s) for s in restarted(joint.model, whole(runs), MAX_STEP)]
+    fits = [alone(joint, s) for s in restarted(joint.model, whole(runs))]
     return fits, [share_of(fit) for fit in fits]
 
 

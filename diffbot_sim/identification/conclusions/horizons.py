@@ -11,8 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from diffbot_sim.identification.conclusions.comparison import SIMULATION_STEP
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.fitting.predictor import MAX_STEP, predict
+from diffbot_sim.identification.fitting.predictor import predict
 from diffbot_sim.identification.recordings.measurement import simulated
 from diffbot_sim.identification.recordings.start import WINDOW
 from diffbot_sim.identification.recordings.stretches import Stretch
@@ -88,7 +89,7 @@ def _errors(models: Sequence[Model], final: Fit, stretch: Stretch, spacing: floa
         # What is told at an end may be a mean since the sample before.
         stamps = np.unique([moment, *(ends - 1), *ends])
         for column, model in enumerate(models):
-            run = simulated(model, stretch, time[stamps], start, MAX_STEP)
+            run = simulated(model, stretch, time[stamps], start, SIMULATION_STEP)
             at_ends = run.twist[np.searchsorted(stamps, ends)]
             errors[row, column, told] = stretch.twist[ends] - at_ends
     return errors

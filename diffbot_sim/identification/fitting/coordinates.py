@@ -15,7 +15,8 @@ from diffbot_sim.records import Array
 # A parameter that the data leaves open stays near its declared value: one standard deviation of
 # this weak prior is a factor e, or one declared value, and weighs as much as one sample.
 PRIOR_DEVIATION = 1.0
-# Effects of heavy robots are many times the typical size: so far from neutral they may well be.
+# Effects of heavy robots are many times the typical size: so far from neutral they may well be, as
+# far as their range goes.
 EFFECT_DEVIATION = 100.0
 # What has no meaning while an effect is neutral has no prior to speak of.
 NO_PRIOR = 1e4
@@ -131,7 +132,8 @@ def _of_effect(kind: type[Effect], spec: Spec) -> Coordinate:
         return spec.scale / u if spec.reciprocal else u * spec.scale
 
     neutral, *ends = (_in_scale(spec, x) for x in (spec.default, spec.low, spec.high))
-    deviation = PRIOR_DEVIATION if spec.reciprocal else EFFECT_DEVIATION
+    widest = min(EFFECT_DEVIATION, max(ends) - min(ends))
+    deviation = PRIOR_DEVIATION if spec.reciprocal else widest
     deviation = NO_PRIOR if spec.name in kind.shape else deviation
     name = f'{kind.name}.{spec.name}'
     low, high, valid = min(ends), max(ends), (spec.low, spec.high)

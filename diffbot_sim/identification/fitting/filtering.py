@@ -17,7 +17,6 @@ from scipy.special import exprel
 
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
-from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.lateness import LATE, LATE_EFFECTS
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
@@ -126,7 +125,7 @@ def _cost_before(fit: Fit, effect: str, behind: Filter) -> float:
     undone = tuple(_before(stretch, behind) for stretch in fit.stretches)
     space = Space(fit.space.declared, tuple(k for k in fit.space.kinds if k.name != effect))
     start = np.delete(fit.u, fit.space.places(effect))
-    stretches = restarted(space.model(start), undone, MAX_STEP)
+    stretches = restarted(space.model(start), undone)
     before = fit_prediction(space, stretches, start, FIRST_GAINS)
     shares = [
         _passed(stretch.time, behind.time_constant)[stretch.used[1:] > 0] for stretch in stretches

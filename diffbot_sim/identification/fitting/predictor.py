@@ -13,6 +13,7 @@ from math import exp
 import numpy as np
 from numba import types
 
+from diffbot_sim.identification.recordings.start import PREDICTION_STEP
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.physics.compiled import entry
 from diffbot_sim.physics.composition import compose
@@ -36,8 +37,6 @@ from diffbot_sim.physics.snapshot import keep, snapshot_size
 from diffbot_sim.physics.vector import HEADING, roll, twist_of, way_of
 from diffbot_sim.records import Array
 
-# Longest integration step [s]; fourth order keeps its error far below any odometry's noise.
-MAX_STEP = 0.02
 # In this time [s] wheels come to where they are measured to stand: noise of that is smoothed.
 ROLLED = 0.5
 # Gains: of speed, of the disturbance, and the disturbance's memory over one second; v, then ω.
@@ -75,7 +74,7 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
         initial_vector(model, stretch.start),
         np.ascontiguousarray(commands.time),
         np.ascontiguousarray(commands.force),
-        MAX_STEP,
+        PREDICTION_STEP,
         np.ascontiguousarray(stretch.time),
         np.ascontiguousarray(stretch.twist),
         np.array(stretch.run.odometry.means, dtype=float),

@@ -3,7 +3,8 @@
 import numpy as np
 from numba import types
 
-from diffbot_sim.identification.fitting.predictor import MAX_STEP, Prediction, predict
+from diffbot_sim.identification.fitting.predictor import Prediction, predict
+from diffbot_sim.identification.recordings.start import PREDICTION_STEP
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.minimisation import flatter
 from diffbot_sim.physics.compiled import entry
@@ -54,7 +55,7 @@ class Steps:
             model.pack(),
             np.ascontiguousarray(commands.time),
             np.ascontiguousarray(commands.force),
-            MAX_STEP,
+            PREDICTION_STEP,
             np.ascontiguousarray(stretch.time),
             by,
             np.array(stretch.run.odometry.means, dtype=float),

@@ -11,7 +11,6 @@ from math import nan
 import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, whitened
-from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.fitting.response import responses
 from diffbot_sim.identification.fitting.views import views
 from diffbot_sim.identification.free_forms.moments import over_time
@@ -37,7 +36,7 @@ def moves_otherwise(fit: Fit, held_out: Sequence[Stretch]) -> Structure | None:
 
     Told of the run that it acts in most.
     """
-    begun = restarted(fit.model, held_out, MAX_STEP)
+    begun = restarted(fit.model, held_out)
     excess = excess_of(fit, begun)
     axis = int(np.argmax(excess))
     if excess[axis] <= MUCH:

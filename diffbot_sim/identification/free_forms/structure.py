@@ -6,7 +6,6 @@ from math import inf, isinf, isnan
 import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, whitened
-from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.free_forms.bases import again, bases
 from diffbot_sim.identification.free_forms.dependence import (
     Dependence,
@@ -125,11 +124,11 @@ def _may_be_chance(dependence: Dependence, fit: Fit, tried: int) -> bool:
 
 def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) -> float:
     """Return the chance of the fall of the held-out loss."""
-    begun = restarted(fit.model, held_out, MAX_STEP)
+    begun = restarted(fit.model, held_out)
     before = huber(whitened(begun, fit.model, fit.gains, fit.sigma))
     adapted = np.concatenate([fit.u, fit.gains]) + dependence.adaptation
     at = np.concatenate([adapted, dependence.amounts])
-    begun = restarted(fit.space.model(adapted[: len(fit.u)]), held_out, MAX_STEP)
+    begun = restarted(fit.space.model(adapted[: len(fit.u)]), held_out)
     basis = again(dependence.basis, fit, begun)
     return chance_of(before - huber(acting(fit, basis, at, begun)))
 

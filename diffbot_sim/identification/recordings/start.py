@@ -14,6 +14,9 @@ from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array
 
 WINDOW = 1.0
+# Longest integration step while models are fitted [s]; fourth order keeps its error far below any
+# odometry's noise.
+PREDICTION_STEP = 0.02
 # A robot that may well have been at rest was: chance alone lets two speeds explain so much.
 REST = 9.0
 
@@ -45,6 +48,6 @@ def start_of(model: Model, stretch: Stretch, max_step: float) -> State:
     return replace(first, v=float(best.x[0]), omega=float(best.x[1]))
 
 
-def restarted(model: Model, stretches: Sequence[Stretch], max_step: float) -> tuple[Stretch, ...]:
+def restarted(model: Model, stretches: Sequence[Stretch]) -> tuple[Stretch, ...]:
     """Return stretches that begin in the state in which this model fits them best."""
-    return tuple(replace(s, start=start_of(model, s, max_step)) for s in stretches)
+    return tuple(replace(s, start=start_of(model, s, PREDICTION_STEP)) for s in stretches)

@@ -13,7 +13,6 @@ from diffbot_sim.identification.fitting.fit import (
     fit_with_noise_held,
     whitened,
 )
-from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.selection.screening import Score, Screen
@@ -24,15 +23,12 @@ from diffbot_sim.records import Array
 
 # Evaluations after which a start, or an effect, is compared with others.
 SHORT = 4
-# Starts that end as near as this in deviance differ in what the drive does not show: the first,
-# which takes least for granted, is as good.
-ALIKE = 1.0
 
 
 def approach(screen: Screen, kind: type[Effect], score: Score) -> Fit:
     """Fit a structure with one effect more for a short while, the noise model held.
 
-    Each start has a local minimum of its own; the best is returned, of those alike the first.
+    Each start has a local minimum of its own; the best is returned.
     """
     base = screen.fit
     space = Space(base.space.declared, (*base.space.kinds, kind))
@@ -40,8 +36,7 @@ def approach(screen: Screen, kind: type[Effect], score: Score) -> Fit:
         fit_with_noise_held(space, base.stretches, start, base.gains, SHORT, rounds=1)
         for start in score.starts
     ]
-    ends = [fit.deviance(base.sigma) for fit in tried]
-    return next(fit for fit, end in zip(tried, ends, strict=True) if end <= min(ends) + ALIKE)
+    return min(tried, key=lambda fit: fit.deviance(base.sigma))
 
 
 def complete(near: Fit) -> Fit:
@@ -65,14 +60,14 @@ def _completed_anew(near: Fit) -> Fit:
 
 def begun_anew(fit: Fit) -> Fit:
     """Fit again from the first states that this model finds best: a poorer one misjudged them."""
-    stretches = restarted(fit.model, fit.stretches, MAX_STEP)
+    stretches = restarted(fit.model, fit.stretches)
     return fit_prediction(fit.space, stretches, fit.u, fit.gains)
 
 
 def on_recordings(fit: Fit, recordings: Recordings) -> Fit:
     """Return a structure as it was fitted, on other recordings."""
     fitted, _ = recordings.divided
-    return replace(fit, stretches=restarted(fit.model, fitted, MAX_STEP))
+    return replace(fit, stretches=restarted(fit.model, fitted))
 
 
 def reduce(fit: Fit, name: str) -> Fit:

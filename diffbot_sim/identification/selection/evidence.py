@@ -9,7 +9,6 @@ import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.fitting.fit import Fit, whitened
-from diffbot_sim.identification.fitting.predictor import MAX_STEP
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.blocks import informative_blocks, sandwich, wald_p
@@ -159,7 +158,7 @@ def held_out_gain(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> tuple[
     up for what it lacks, that of the large one trusts a model that is a moment late when a wheel
     breaks away. The chance counts both looks.
     """
-    begun = [restarted(fit.model, held_out, MAX_STEP) for fit in (small, large)]
+    begun = [restarted(fit.model, held_out) for fit in (small, large)]
     looks = []
     for gains in (small.gains, large.gains):
         losses = [

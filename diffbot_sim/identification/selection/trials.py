@@ -2,13 +2,15 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import nan
 
 from scipy import stats
 
 from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.selection.candidates import approach, complete
+from diffbot_sim.identification.selection.candidates import approach, complete, reduce
 from diffbot_sim.identification.selection.evidence import Evidence, compare, rise_without, wald
 from diffbot_sim.identification.selection.feedback import is_of_feedback
 from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE, comes_up
@@ -65,6 +67,14 @@ class Trial:
     def accepted(self) -> bool:
         """Whether the evidence was beyond doubt."""
         return self.outcome == SUPPORTED
+
+    @cached_property
+    def without(self) -> Fit | None:
+        """The fit without the effect from where that led to: it may beat the one it was tried on.
+
+        Fits end in any of many hollows.
+        """
+        return None if self.fit is None else shaken(reduce(self.fit, self.kind.name))
 
     @property
     def refused(self) -> bool:
