@@ -64,8 +64,8 @@ def found(name: str = 'quadratic_drag', with_pose: bool = True) -> Identificatio
         comparisons=(comparison(0.03, with_pose), comparison(0.02, with_pose, 'second drive')),
         runs=(check('first drive'), check('second drive')),
         nominal_beside={
-            'robot.mass': Estimate(10.011, 9.967, 10.055, 'kg'),
-            'friction.mu_viscous': Estimate(0.0402, 0.0371, 0.0433, 's/m'),
+            'mass': Estimate(10.011, 9.967, 10.055, 'kg'),
+            'mu_viscous': Estimate(0.0402, 0.0371, 0.0433, 's/m'),
         },
         advice=('turn on the spot: yaw friction leaves no trace in this drive',),
     )
@@ -80,7 +80,7 @@ def nothing_missing(with_pose: bool = True) -> Identification:
         verdict=NOTHING_MISSING,
         effects=(),
         unexplained=None,
-        nominal={'robot.mass': mass, 'friction.mu_viscous': viscous},
+        nominal={'mass': mass, 'mu_viscous': viscous},
         errors=errors(0.0041),
         candidates=candidates(''),
         declared=Model(),
@@ -155,7 +155,6 @@ def comparison(missing: float, with_pose: bool, run: str = 'first drive') -> Com
     truth = _trajectory(time, 0.0)
     noise = np.random.default_rng(1).normal(0.0, NOISE, (len(time), 2))
     twist = truth.twist + noise
-    twist[7] = np.nan
     return Comparison(
         run, time, twist, truth.pose if with_pose else None, _trajectory(time, missing + 0.04),
         _trajectory(time, missing), truth, 10.0 * noise,

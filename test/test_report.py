@@ -47,7 +47,7 @@ def one_odd_run() -> Identification:
 def test_json_has_the_keys_that_other_programs_rely_on(answer: Answer) -> None:
     report = json.loads(by_hand.as_json(answer()))
     assert {'verdict', 'effects', 'unexplained', 'nominal', 'error', 'candidates'} <= set(report)
-    assert report['nominal']['parameters']['robot.mass']['ci95'] == [10.171, 10.255]
+    assert report['nominal']['parameters']['mass']['ci95'] == [10.171, 10.255]
     error = report['error']
     assert error['split'] == 'held_out'
     for name in ('declared', 'recalibrated', 'with_effects', 'noise_floor'):
@@ -151,10 +151,10 @@ def test_errors_are_told_by_horizon(told: Callable[[Identification], str]) -> No
 
 def test_parameter_at_its_bound_is_marked() -> None:
     stopped = Estimate(0.0, -0.1, 0.1, 'N', at_bound=True)
-    result = replace(by_hand.found(), nominal={'friction.mu_viscous': stopped})
+    result = replace(by_hand.found(), nominal={'mu_viscous': stopped})
     assert '(at bound)' in by_hand.page(result)
     estimates = json.loads(by_hand.as_json(result))['nominal']['parameters']
-    assert estimates['friction.mu_viscous']['at_bound'] is True
+    assert estimates['mu_viscous']['at_bound'] is True
 
 
 @pytest.mark.parametrize('told', [by_hand.as_json, by_hand.page, summary])
@@ -300,7 +300,7 @@ def test_declared_effect_of_another_size_is_told_as_found() -> None:
 
 def test_parameters_beside_the_effects_found_are_told() -> None:
     nominal = json.loads(by_hand.as_json(by_hand.found()))['nominal']
-    assert nominal['beside_effects']['robot.mass']['value'] == 10.011
+    assert nominal['beside_effects']['mass']['value'] == 10.011
     assert '10.011 ± 0.044 kg' in by_hand.page(by_hand.found())
     assert 'with effects, 95' not in by_hand.page(by_hand.nothing_missing())
 

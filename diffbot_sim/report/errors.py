@@ -3,8 +3,6 @@
 from dataclasses import asdict, dataclass
 from math import nan
 
-import numpy as np
-
 from diffbot_sim.identification.result import (
     Comparison,
     ErrorNorm,
@@ -12,7 +10,6 @@ from diffbot_sim.identification.result import (
     Identification,
 )
 from diffbot_sim.identification.statistics.norms import norm
-from diffbot_sim.records import Trajectory
 
 LABELS = {
     'declared': 'declared',
@@ -78,10 +75,4 @@ def models_shown(result: Identification) -> tuple[str, ...]:
 
 def run_errors(run: Comparison) -> dict[str, dict[str, float]]:
     """Return each model's error [m/s, rad/s] on one held-out stretch."""
-    return {key: asdict(_norm(run, getattr(run, key))) for key in MODELS}
-
-
-def _norm(run: Comparison, model: Trajectory) -> ErrorNorm:
-    errors = run.twist - model.twist
-    known = errors[np.isfinite(errors).all(axis=1)]
-    return norm(known) if len(known) else ErrorNorm(nan, nan)
+    return {key: asdict(norm(run.twist - getattr(run, key).twist)) for key in MODELS}

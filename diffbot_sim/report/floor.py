@@ -46,8 +46,7 @@ def _outward(pose: Array, spot: Array) -> Array:
 
 def _way(place: Array, force: Array) -> Json:
     rows = thinned(len(place))
-    # Where a run has gaps no force is known.
-    most = float(np.nanquantile(np.abs(force), STRONGEST))
+    most = float(np.quantile(np.abs(force), STRONGEST))
     bar = {'title': {'text': 'force [N]', 'side': 'right'}, 'thickness': 12}
     scale = {'colorscale': 'RdBu', 'cmin': -most, 'cmax': most, 'colorbar': bar}
     dots = {'color': column(force[rows]), 'size': 5, **scale}

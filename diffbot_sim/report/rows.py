@@ -1,7 +1,6 @@
 """Rows of the tables, in words, that the page and the terminal share."""
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 from diffbot_sim.identification.result import (
     Candidate,
@@ -141,23 +140,10 @@ def _effect_specs(name: str) -> tuple[Spec, ...]:
 
 
 def _nominal(model: Model, name: str, estimate: Estimate) -> ParameterRow:
-    spec, value = _declared(model, name)
-    if spec is None:
-        return ParameterRow(name, '', estimate_text(estimate))
-    declared = f'{value:g}{unit_text(spec.unit)}'
+    part = model.robot if hasattr(model.robot, name) else model.friction
+    (spec,) = (spec for spec in specs(part) if spec.name == name)
+    declared = f'{getattr(part, name):g}{unit_text(spec.unit)}'
     return ParameterRow(name, spec.meaning, estimate_text(estimate), declared)
-
-
-def _declared(model: Model, name: str) -> tuple[Spec | None, Any]:
-    """Find a parameter called `leaf` or `part.leaf` in robot, friction or effects."""
-    *owner, leaf = name.split('.')
-    parts = {'robot': model.robot, 'friction': model.friction}
-    parts |= {effect.name: effect for effect in model.effects}
-    for key, part in parts.items():
-        for spec in specs(part):
-            if spec.name == leaf and (not owner or owner[-1] == key):
-                return spec, getattr(part, leaf)
-    return None, None
 
 
 def _evidence(name: str, value: float) -> tuple[str, str]:
