@@ -8,7 +8,7 @@ from fits import SMOOTH, fitted
 
 from diffbot_sim.control.rehearsal import random_forces, rehearse
 from diffbot_sim.identification.selection.candidates import approach, complete
-from diffbot_sim.identification.selection.evidence import likelihood_ratio, rise_without
+from diffbot_sim.identification.selection.evidence import compare, likelihood_ratio, rise_without
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.stepwise import select
 from diffbot_sim.identification.selection.trials import (
@@ -20,6 +20,7 @@ from diffbot_sim.identification.selection.trials import (
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.effects.actuator_saturation import ActuatorSaturation
+from diffbot_sim.physics.effects.friction_drift import FrictionDrift
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
 from diffbot_sim.physics.effects.voltage_limit import VoltageLimit
 
@@ -61,3 +62,13 @@ def test_limit_that_acts_for_moments_enters_where_other_data_confirm_it() -> Non
     fit, held_out = fitted(rehearse(limited, drive, SMOOTH, 3))
     (trial,) = try_all(Screen(fit), [VoltageLimit], held_out, lambda text: None)
     assert trial.accepted
+
+
+def test_what_is_found_counts_the_shapes_tried() -> None:
+    drifting = Model(effects=(FrictionDrift(0.3, 0.0, 20.0),))
+    fit, held_out = fitted(rehearse(drifting, random_forces(3, 60.0, -9.0, 11.0), SMOOTH, 3))
+    found = select(fit, [FrictionDrift], held_out, lambda text: None)
+    (trial,), (rest,), (told,) = found.trials, found.without.values(), found.support.values()
+    assert trial.looks > 1
+    alone = compare(rest, found.final, held_out)
+    assert told.p_block == pytest.approx(trial.looks * alone.p_block)

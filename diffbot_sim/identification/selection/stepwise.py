@@ -1,6 +1,6 @@
 """Which effects enter: forward while the evidence is beyond doubt, then backward."""
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import itemgetter
 from typing import NamedTuple
@@ -52,7 +52,7 @@ class Selection:
     def withdrawn(self, name: str, held_out: Sequence[Stretch], why: str) -> 'Selection':
         """Return the selection without one of the effects chosen, the others weighed anew."""
         kept, final = [key for key in self.support if key != name], self.without[name]
-        without = {key: reduce(final, key) for key in kept}
+        without, looks = {key: reduce(final, key) for key in kept}, _looks(self.trials)
         return replace(
             self,
             final=final,
@@ -61,7 +61,10 @@ class Selection:
                 replace(trial, outcome=why) if trial.kind.name == name else trial
                 for trial in self.trials
             ),
-            support={key: compare(rest, final, held_out) for key, rest in without.items()},
+            support={
+                key: compare(rest, final, held_out).of_best(looks[key])
+                for key, rest in without.items()
+            },
             alternatives={key: self.alternatives[key] for key in kept},
         )
 
@@ -84,7 +87,8 @@ def select(
         progress(f'{best.space.kinds[-1].name} enters')
         path.append(Screen(shaken(begun_anew(best))))
     fits = [screen.fit for screen in path]
-    final, without, support, left = _prune(fits, len(kinds), held_out, progress)
+    looks = _looks(last.values())
+    final, without, support, left = _prune(fits, len(kinds), looks, held_out, progress)
     told = [_with_outcome(trial, without, left) for trial in last.values()]
     trials = sorted(told, key=lambda t: (t.kind.name in without, t.evidence.delta_bic))
     alternatives = {
@@ -92,6 +96,11 @@ def select(
         for name, rest in without.items()
     }
     return Selection(base, final, tuple(reversed(trials)), without, support, alternatives)
+
+
+def _looks(trials: Iterable[Trial]) -> dict[str, int]:
+    """Return how many shapes of each effect were tried."""
+    return {trial.kind.name: trial.looks for trial in trials}
 
 
 def _with_outcome(trial: Trial, chosen: Container[str], left: Mapping[str, str]) -> Trial:
@@ -111,13 +120,17 @@ class _Pruned(NamedTuple):
 
 
 def _prune(
-    path: Sequence[Fit], tried: int, held_out: Sequence[Stretch], progress: Progress
+    path: Sequence[Fit],
+    tried: int,
+    looks: Mapping[str, int],
+    held_out: Sequence[Stretch],
+    progress: Progress,
 ) -> _Pruned:
     """Take out, one by one, effects that later ones have made needless, or unsure.
 
-    path: the fits of the forward search. Each is asked once more from where the larger one led:
-    an effect must not live off a poor end of the fit that lacks it, nor may what lacks it explain
-    the data as well.
+    path: the fits of the forward search; looks: how many shapes of each effect were tried. Each
+    is asked once more from where the larger one led: an effect must not live off a poor end of
+    the fit that lacks it, nor may what lacks it explain the data as well.
     """
     fit, left = path[-1], dict[str, str]()
     while True:
@@ -127,7 +140,8 @@ def _prune(
             progress(f'trying without {kind.name}')
             ends = [reduce(fit, kind.name), *(f for f in path if set(f.space.kinds) == rest)]
             smaller[kind.name] = min(ends, key=lambda end: end.deviance(fit.sigma))
-            support[kind.name] = compare(smaller[kind.name], fit, held_out)
+            evidence = compare(smaller[kind.name], fit, held_out)
+            support[kind.name] = evidence.of_best(looks[kind.name])
         outcomes = {name: judge_again(support[name], tried) for name in support}
         outcomes |= dict.fromkeys(fit.incredible & outcomes.keys(), NEEDLESS)
         leaving = [name for name, outcome in outcomes.items() if outcome != SUPPORTED]

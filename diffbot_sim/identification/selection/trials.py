@@ -56,12 +56,16 @@ Progress = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Trial:
-    """One effect tried on top of a structure; fit: to the end, None where it was not fitted."""
+    """One effect tried on top of a structure; fit: to the end, None where it was not fitted.
+
+    looks: how many shapes were tried, of which this is the best; what is asked of it counts them.
+    """
 
     kind: type[Effect]
     fit: Fit | None
     evidence: Evidence
     outcome: str
+    looks: int = 1
 
     @property
     def accepted(self) -> bool:
@@ -166,7 +170,8 @@ def _completed(
     if fall < HOPEFUL * price and approached.score.ratio < price:
         return _not_fitted(screen, kind, fall, CHANCE)
     fit = complete(approached.near)
-    evidence = compare(screen.fit, fit, held_out).of_best(approached.score.shapes)
+    looks = approached.score.shapes
+    evidence = compare(screen.fit, fit, held_out).of_best(looks)
     outcome = judge(evidence, tried)
     if outcome == SUPPORTED and kind.name in fit.incredible:
         outcome = INCREDIBLE
@@ -174,7 +179,7 @@ def _completed(
         outcome = BEREFT
     elif outcome == SUPPORTED and is_of_feedback(fit, kind.name):
         outcome = HEARD
-    return Trial(kind, fit, evidence, outcome)
+    return Trial(kind, fit, evidence, outcome, looks)
 
 
 def _is_bereft(fit: Fit, kind: type[Effect], explained: float) -> bool:
