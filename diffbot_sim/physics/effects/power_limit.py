@@ -37,6 +37,20 @@ def limited(at: Motion, traction: Traction, driving: float, braking: float) -> T
     )
 
 
+def largest_power(meaning: str) -> float:
+    """Declare a limit of power [W]."""
+    value: float = parameter(
+        UNLIMITED,
+        unit='W',
+        low=1e-3,
+        high=UNLIMITED,
+        scale=10.0,
+        reciprocal=True,
+        meaning=meaning,
+    )
+    return value
+
+
 @dataclass(frozen=True)
 class PowerLimit(Effect):
     """Force on each wheel of at most P/|v| while it drives, rounded there.
@@ -52,24 +66,8 @@ class PowerLimit(Effect):
     guesses = ((10.0, UNLIMITED), (3.0, 3.0))
     excitation = 'the strongest commands, held until it is fast, and against its motion'
 
-    power: float = parameter(
-        UNLIMITED,
-        unit='W',
-        low=1e-3,
-        high=UNLIMITED,
-        scale=10.0,
-        reciprocal=True,
-        meaning='largest power P of a wheel that drives',
-    )
-    braking_power: float = parameter(
-        UNLIMITED,
-        unit='W',
-        low=1e-3,
-        high=UNLIMITED,
-        scale=10.0,
-        reciprocal=True,
-        meaning='largest power P_b of a wheel that brakes',
-    )
+    power: float = largest_power('largest power P of a wheel that drives')
+    braking_power: float = largest_power('largest power P_b of a wheel that brakes')
 
     @classmethod
     def starts(cls, drive: Excitation) -> tuple[tuple[float, ...], ...]:
