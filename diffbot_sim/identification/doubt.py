@@ -5,8 +5,6 @@ from dataclasses import replace
 from itertools import product
 from typing import NamedTuple
 
-import numpy as np
-
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
 from diffbot_sim.identification.free_forms.bases import again
 from diffbot_sim.identification.free_forms.bursts import bursts, is_small_part_of_bursts
@@ -225,7 +223,7 @@ def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
         return None
     whole = _acting_in(rest, left, final.sigma)
     taken = whole.fall - left.fall
-    price = (len(final.u) - len(rest.u)) * float(np.log(final.whitened.size))
+    price = final.price(len(final.u) - len(rest.u))
     unnamed = worth_of(left, final)
     # Beside a larger unknown what either explains only with the other's help is not the name's.
     shared = abs(taken) if unnamed > worth else max(taken, 0.0)

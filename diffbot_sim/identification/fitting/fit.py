@@ -72,17 +72,17 @@ class Fit:
     @cached_property
     def jacobian(self) -> Array:
         """Derivative of whitened by u and then the gains, shape (n, 2, p)."""
-        return self.jacobian_on(self.stretches)
-
-    def jacobian_on(self, stretches: Sequence[Stretch]) -> Array:
-        """Return the same derivative on other stretches."""
-        size = len(self.u)
+        size, space = len(self.u), self.space
 
         def errors(point: Array) -> Array:
-            return whitened(stretches, self.space.model(point[:size]), point[size:], self.sigma)
+            return whitened(self.stretches, space.model(point[:size]), point[size:], self.sigma)
 
         point = np.concatenate([self.u, self.gains])
-        return derivatives(errors, point, errors(point), joint_bounds(self.space))
+        return derivatives(errors, point, errors(point), joint_bounds(space))
+
+    def price(self, numbers: int) -> float:
+        """Return by how much so many more numbers have to lower the deviance: their BIC."""
+        return numbers * float(np.log(self.whitened.size))
 
 
 def whitened(stretches: Sequence[Stretch], model: Model, gains: Array, sigma: Array) -> Array:

@@ -178,4 +178,4 @@ def by_worth(dependences: Iterable[Dependence], fit: Fit) -> list[Dependence]:
 
 def worth_of(dependence: Dependence, fit: Fit) -> float:
     """Return by how much a dependence lowers the BIC."""
-    return dependence.fall - dependence.basis.size * float(np.log(fit.whitened.size))
+    return dependence.fall - fit.price(dependence.basis.size)

@@ -1,16 +1,20 @@
 """How much a wheel has rolled lately: bearings and grease warm as they roll, and cool at rest."""
 
 from dataclasses import dataclass
+from math import exp
 from typing import ClassVar
 
 import numpy as np
+from numba import types
 
 from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.identification.free_forms.forms import Given
+from diffbot_sim.physics.compiled import entry
 from diffbot_sim.records import Array
 
 # For how long warmth stays [s], each tried alone.
 TIMES = ((3.0,), (10.0,), (30.0,))
+_MATRIX = types.Array(types.float64, 2, 'A')
 
 
 @dataclass(frozen=True)
@@ -32,9 +36,19 @@ class Warming(Given):
 
 
 def lately(values: Array, time: Array, fading: float) -> Array:
-    """Return means of the past, in which what was fades in a time [s]; before it was nothing."""
-    mean = np.zeros_like(values)
-    kept = np.exp(-np.diff(time) / fading)
-    for k, share in enumerate(kept):
-        mean[k + 1] = share * mean[k] + (1.0 - share) * values[k]
+    """Return means of the past, in which what was fades in a time [s]; before it was nothing.
+
+    values, shape (k, 2).
+    """
+    mean = np.zeros(values.shape)
+    _fade(time, values, fading, mean)
     return mean
+
+
+@entry(types.void(types.Array(types.float64, 1, 'A'), _MATRIX, types.float64, _MATRIX))
+def _fade(time: Array, values: Array, fading: float, mean: Array) -> None:
+    """Let the mean follow the values from sample to sample, each held until the next."""
+    for k in range(len(time) - 1):
+        kept = exp(-(time[k + 1] - time[k]) / fading)
+        for column in range(values.shape[1]):
+            mean[k + 1, column] = kept * mean[k, column] + (1.0 - kept) * values[k, column]

@@ -85,7 +85,7 @@ class Screen:
 
     def price(self, kind: type[Effect]) -> float:
         """Return what the parameters of an effect cost in BIC."""
-        return len(kind.specs()) * float(np.log(self.fit.whitened.size))
+        return self.fit.price(len(kind.specs()))
 
     def score(self, kind: type[Effect]) -> Score:
         """Try small amounts of an effect, in each of its shapes, and its starts as they stand."""
