@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from diffbot_sim.identification.conclusions.comparison import run_free
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.wiring import Fault
 from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.free_forms.otherwise import force_over_time
+from diffbot_sim.identification.recordings.free_running import run_free
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.identification.statistics.norms import norm

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from diffbot_sim.identification.conclusions.comparison import free_running_error, run_free
 from diffbot_sim.identification.doubt import doubt
 from diffbot_sim.identification.fitting.calibration import simulation_error, simulation_error_at
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
 from diffbot_sim.identification.found import Found
+from diffbot_sim.identification.recordings.free_running import free_running_error, run_free
 from diffbot_sim.identification.recordings.noiseless import is_noiseless
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.trials import WORSENING

@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 
-from diffbot_sim.identification.conclusions.comparison import run_free
 from diffbot_sim.identification.conclusions.uncertainty import estimates_at
 from diffbot_sim.identification.fitting.fit import Fit, fit_with_noise_held
+from diffbot_sim.identification.recordings.free_running import run_free
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch, whole
 from diffbot_sim.identification.result import Difference, Estimate, RunCheck

@@ -5,30 +5,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, predictions
-from diffbot_sim.identification.recordings.measurement import simulated
-from diffbot_sim.identification.recordings.start import start_of
+from diffbot_sim.identification.recordings.free_running import run_free
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Comparison, ErrorNorm, Errors
 from diffbot_sim.identification.statistics.norms import noise_floor, norm
 from diffbot_sim.physics.model import Model
-from diffbot_sim.records import Array, Trajectory
-
-# Longest integration step of what is told in the end [s], as `simulate` has it.
-SIMULATION_STEP = 0.005
-# An error [m/s, rad/s] as good as none, as of the yaw rate of what cannot turn.
-NOTHING = 1e-9
-
-
-def run_free(model: Model, stretch: Stretch) -> Trajectory:
-    """Simulate a stretch from its first state with the recorded forces alone."""
-    start = start_of(model, stretch, SIMULATION_STEP)
-    return simulated(model, stretch, stretch.time, start, SIMULATION_STEP)
-
-
-def free_running_error(model: Model, held_out: Sequence[Stretch]) -> Array:
-    """Return the error of v [m/s] and ω [rad/s] on held-out stretches, pooled, shape (2,)."""
-    misses = [stretch.twist - run_free(model, stretch).twist for stretch in held_out]
-    return np.maximum(norm(np.concatenate(misses)).pair, NOTHING)
 
 
 def compare_models(

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from diffbot_sim.identification.conclusions.comparison import free_running_error
 from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
+from diffbot_sim.identification.recordings.free_running import free_running_error
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
 from diffbot_sim.physics.effects import empirical_force, empirical_wheel_force

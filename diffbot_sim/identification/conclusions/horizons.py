@@ -11,9 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from diffbot_sim.identification.conclusions.comparison import SIMULATION_STEP
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.predictor import predict
+from diffbot_sim.identification.recordings.free_running import SIMULATION_STEP
 from diffbot_sim.identification.recordings.measurement import simulated
 from diffbot_sim.identification.recordings.start import WINDOW
 from diffbot_sim.identification.recordings.stretches import Stretch
