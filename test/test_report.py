@@ -323,6 +323,7 @@ def test_error_far_above_the_noise_is_not_passed_over(error: float, told: bool) 
         (Estimate(2.5, -np.inf, 3.0, 's'), '2.500 s (no interval)'),
         (Estimate(np.nan, 0.0, 1.0, 's'), '–'),
         (Estimate(-0.001, -0.1, 0.1, ''), '0.00 ± 0.10'),
+        (Estimate(1e5, 4.95, 1e9, 'W', at_bound=True), 'above 5.0 W'),
     ],
 )
 def test_estimate_has_as_many_digits_as_its_interval_deserves(

@@ -5,6 +5,8 @@ from math import floor, isfinite, log10
 from diffbot_sim.identification.result import Estimate
 
 DASH = '–'
+# An interval that reaches so many times as high as it is low is open above.
+OPEN = 1e4
 
 
 def significant(value: float, digits: int = 3) -> str:
@@ -15,7 +17,12 @@ def significant(value: float, digits: int = 3) -> str:
 
 
 def estimate_text(estimate: Estimate) -> str:
-    """Write value ± half interval and unit, and whether the fit was stopped by a bound."""
+    """Write value ± half interval and unit, and whether the fit was stopped by a bound.
+
+    Of a limit that does not show, what it lies above.
+    """
+    if estimate.at_bound and 0.0 < OPEN * estimate.low < estimate.high:
+        return f'above {significant(estimate.low, 2)}{unit_text(estimate.unit)}'
     return _with_interval(estimate) + (' (at bound)' if estimate.at_bound else '')
 
 

@@ -54,9 +54,7 @@ class VoltageLimit(Effect):
     kernel = limited
     guesses = ((10.0, 1.0, 1.0), (4.0, 0.5, -1.0))
     essential = ('no_load_speed',)
-    excitation = (
-        'the strongest commands, from rest until the robot is fast, and against its motion'
-    )
+    excitation = 'the strongest commands, from rest until it is fast, and against its motion'
 
     stall_force: float = parameter(
         1e9,
