@@ -24,7 +24,7 @@ from diffbot_sim.identification.selection.trials import (
 from diffbot_sim.physics.effects import Effect
 
 # What explains less than this share of what a found effect does, to first order, is no rival.
-RIVAL_SHARE = 0.5
+RIVAL_SHARE = 0.25
 MOST_EFFECTS = 4
 
 
