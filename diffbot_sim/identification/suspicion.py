@@ -3,7 +3,6 @@
 from math import inf
 from typing import NamedTuple
 
-from diffbot_sim.identification.selection.evidence import delta_bic
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import BEREFT, INCREDIBLE, Trial
 
@@ -41,11 +40,12 @@ def suspected(selection: Selection, allowed: float) -> Suspected | None:
     """
     refused = [t for t in selection.trials if t.refused and not t.evidence.is_contradicted]
     most = max(refused, key=lambda t: t.evidence.delta_bic, default=None)
-    if most is None:
-        return None
-    worth = _worth_without_luck(most)
     named = sum(evidence.delta_bic for evidence in selection.support.values())
-    return Suspected(most, worth) if worth >= SUSPICIOUS + SLIGHT * named + allowed else None
+    least = SUSPICIOUS + SLIGHT * named + allowed
+    # Its worth takes a fit of its own, which is asked for only where it may matter.
+    if most is None or most.evidence.delta_bic < least or most.worth < least:
+        return None
+    return Suspected(most, most.worth)
 
 
 def doubted_beside(unnamed: float, selection: Selection) -> str:
@@ -61,11 +61,3 @@ def weakest(selection: Selection) -> tuple[float, str]:
     """Return the least worth of a name, and which it is; infinite where there is none."""
     worths = ((evidence.delta_bic, name) for name, evidence in selection.support.items())
     return min(worths, default=(inf, ''))
-
-
-def _worth_without_luck(trial: Trial) -> float:
-    """Return by how much an effect lowers the BIC, held against its fit without it, too."""
-    worth = trial.evidence.delta_bic
-    if worth < SUSPICIOUS or trial.fit is None or trial.without is None:
-        return worth
-    return min(worth, delta_bic(trial.without, trial.fit))

@@ -11,7 +11,13 @@ from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, complete, reduce
-from diffbot_sim.identification.selection.evidence import Evidence, compare, rise_without, wald
+from diffbot_sim.identification.selection.evidence import (
+    Evidence,
+    compare,
+    delta_bic,
+    rise_without,
+    wald,
+)
 from diffbot_sim.identification.selection.feedback import is_of_feedback
 from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE, comes_up
 from diffbot_sim.identification.selection.screening import PROMISING, Score, Screen
@@ -73,12 +79,15 @@ class Trial:
         return self.outcome == SUPPORTED
 
     @cached_property
-    def without(self) -> Fit | None:
-        """The fit without the effect from where that led to: it may beat the one it was tried on.
+    def worth(self) -> float:
+        """By how much it lowers the BIC, held against its fit without the effect, too.
 
-        Fits end in any of many hollows.
+        That may be better than the one that it was tried on: fits end in any of many hollows.
         """
-        return None if self.fit is None else shaken(reduce(self.fit, self.kind.name))
+        if self.fit is None:
+            return self.evidence.delta_bic
+        alone = shaken(reduce(self.fit, self.kind.name))
+        return min(self.evidence.delta_bic, delta_bic(alone, self.fit))
 
     @property
     def refused(self) -> bool:
