@@ -52,7 +52,7 @@ BEREFT = 'nothing of it but what it shares with another effect'
 WORSENING = 'simulates held-out data worse, beside what is unexplained'
 HEARD = 'only while the forces hardly change, as where a controller hears more than was recorded'
 UNSEEN = 'not excited by this drive'
-NEEDLESS = 'needless beside what else was found'
+NEEDLESS = 'explained almost as well without it'
 CROWDED = 'no place left beside the effects found before'
 # Where these are said nothing speaks against the effect, or something else was told in its place.
 UNOPPOSED = (SUPPORTED, OUTDONE, WORSENING, HEARD, NEEDLESS, CROWDED)
