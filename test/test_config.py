@@ -112,6 +112,11 @@ def test_parameters_of_nodes_are_left_alone(tmp_path):
     assert load_model(path) == Model()
 
 
+def test_numbers_that_the_robot_has_may_stand_elsewhere_too(tmp_path):
+    path = parameters(tmp_path, 'robot: {mass: 9.0}\nwheels: {mass: 0.4}')
+    assert load_model(path) == Model(Robot(mass=9.0))
+
+
 def test_all_faults_are_told_in_one_line_that_names_the_file(tmp_path):
     path = parameters(
         tmp_path, 'robot: {mas: 1.0, mass: -2.0}\neffects: {quadratic_drg: {coefficient: 1.0}}'
@@ -136,6 +141,9 @@ def test_all_faults_are_told_in_one_line_that_names_the_file(tmp_path):
         ('effects: {quadratic_drag: 6.0}', 'effects.quadratic_drag: 6.0 is no mapping'),
         ('effects: {slope: {grade: 0.1}}', "Did you mean 'grade_y'?"),
         ('efects: {slope: {grade_x: 0.1}}', 'efects: unknown section. Known: robot, friction'),
+        ('vehicle: {mass: 9.0}', 'vehicle.mass: no place for it. Write robot.mass'),
+        ('mu_static: 0.1', 'mu_static: no place for it. Write friction.mu_static'),
+        ('slope: {grade_x: 0.1}', 'slope: no place for it. Write effects.slope'),
     ],
 )
 def test_wrong_parameters_are_named_with_what_is_valid(tmp_path, text, expected):
