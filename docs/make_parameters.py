@@ -27,6 +27,30 @@ BELONG = {
     'simulator': 'Those of `robot`, `friction` and `effects` below belong to it, too. *Live.*',
     'pi_controller': 'Those of `robot` and `friction` below belong to it, too. *Live.*',
 }
+ROBOT = """\
+Odometry tells of the point between the wheels. The centre of gravity is there, too, unless
+`com_offset` moves it; the inertia is about the centre of gravity.
+"""
+FRICTION = """\
+**Law** of each wheel, eqs. (12) and (13) of the paper, with F_s, F_k, F_v = μ_s, μ_k, μ_v times
+F_N: rolling at v it is sgn(v)·(F_k + (F_s - F_k)·exp(-a_st·|v|)) + F_v·v; at rest it holds
+whatever pushes, up to F_s. The models leave out parts:
+
+| model | at rest, up to | rolling |
+|---|---|---|
+| none | 0 | 0 |
+| coulomb | F_k | F_k |
+| coulomb_stiction | F_s | F_k |
+| coulomb_viscous | F_k | F_k + F_v·v |
+| generalized | F_s | the whole law |
+"""
+EFFECTS = """\
+One that is absent is off. Each lives in a file of its own. They are listed in the order in which
+they act: on the command, on the force of the motors, on its way to the wheels, on the friction of
+each wheel, on the body, on its inertia. The dry friction that some change is F_s and F_k alike; a
+wheel at rest has that of the direction in which it would start. Time counts from the first message
+of a run, be it force or odometry; before the first force none acts.
+"""
 
 
 def page() -> str:
@@ -42,9 +66,9 @@ def page() -> str:
         rows = list(_flat(kind))
         fixed = getattr(kind, 'fixed', [row[0] for row in rows])
         parts.append(_table(rows, fixed))
-    parts += ['## `robot`\n', _table(_named(Robot, 'robot.'))]
-    parts += ['## `friction`\n', _table(_named(Friction, 'friction.'))]
-    parts += ['## `effects`\n', 'One that is absent is off. Each lives in a file of its own.\n']
+    parts += ['## `robot`\n', ROBOT, _table(_named(Robot, 'robot.'))]
+    parts += ['## `friction`\n', FRICTION, _table(_named(Friction, 'friction.'))]
+    parts += ['## `effects`\n', EFFECTS]
     parts += [part for effect in library().values() for part in _effect(effect)]
     return '\n'.join(parts)
 
