@@ -12,6 +12,7 @@ from diffbot_sim.identification.free_forms.dependence import Dependence, realise
 from diffbot_sim.identification.free_forms.drifting import is_of_drift
 from diffbot_sim.identification.free_forms.moments import pushed, standing_out
 from diffbot_sim.identification.free_forms.near_rest import eased
+from diffbot_sim.identification.free_forms.oscillating import oscillating
 from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
 from diffbot_sim.identification.free_forms.structure import dependences, describe, find_dependences
 from diffbot_sim.identification.recordings.stretches import Stretch
@@ -177,7 +178,7 @@ def _nameless(seen: Seen) -> Structure | None:
     # What is left of friction near rest that is allowed for comes in bursts, too.
     if otherwise or (seen.strict is not None and bursts(seen.strict) is None):
         return otherwise
-    return bursts(seen.selection.final)
+    return bursts(seen.selection.final) or oscillating(seen.selection.final)
 
 
 def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence | None:

@@ -97,6 +97,7 @@ STRUCTURE_LABELS = {
     'force_over_time': 'time [s]',
     'friction_over_time': 'time [s]',
     'time_of_push': 'time [s]',
+    'oscillation': 'time [s]',
     'friction_over_heading': 'heading [°]',
     'pull': 'time [s], the pull along x',
     'warmth': 'mean speed of a wheel lately, either way [m/s]',

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from math import log
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +13,7 @@ from diffbot_sim.identification.fitting.views import View, views
 from diffbot_sim.identification.free_forms.structure import FORCES
 from diffbot_sim.identification.free_forms.variable import BODY
 from diffbot_sim.identification.result import Structure
-from diffbot_sim.identification.statistics.guards import LIKELIHOOD_LEVEL
+from diffbot_sim.identification.statistics.guards import LIKELIHOOD_LEVEL, weight
 from diffbot_sim.identification.statistics.norms import rms
 from diffbot_sim.identification.statistics.robust import NORMAL, scale_of
 from diffbot_sim.records import Array
@@ -37,8 +36,6 @@ FELT = 4.0
 OUTSTANDING, AT_LEAST = 6.0, 2
 # What lasts for so long [s] is one push yet.
 LASTING = 5.0
-# A chance that is as good as none.
-IMPOSSIBLE = 1e-300
 # So many windows at once: each takes two numbers for every sample of a stretch.
 AT_ONCE = 50
 
@@ -186,7 +183,7 @@ def _described(fit: Fit, moments: list[Moment]) -> Structure:
         knots=knots,
         force=force,
         force_error=error,
-        worth=-2.0 * sum(log(max(moment.p_value, IMPOSSIBLE)) for moment in moments),
+        worth=weight(moment.p_value for moment in moments),
     )
 
 

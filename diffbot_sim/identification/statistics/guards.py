@@ -1,6 +1,7 @@
 """How sure an answer must be: the same for a name and for a force that has none."""
 
-from math import isnan
+from collections.abc import Iterable
+from math import isnan, log
 
 import numpy as np
 from scipy import stats
@@ -20,6 +21,9 @@ WEIGHTS = (1.0, 2.0)
 # Signed ranks of twenty blocks are never surer than this.
 SUREST = 2.0**-20
 
+# A chance that is as good as none.
+IMPOSSIBLE = 1e-300
+
 # Data whose gain is as likely by chance as this rather speak against what they should confirm.
 AGAINST = 0.5
 
@@ -32,6 +36,11 @@ def is_chance(p_value: float, tried: int) -> bool:
 def may_be_chance(p_value: float, delta_bic: float, tried: int) -> bool:
     """Say whether the likelihood allows something to be chance, with so many tried."""
     return is_chance(p_value, tried) or delta_bic <= 0.0
+
+
+def weight(chances: Iterable[float]) -> float:
+    """Return what chances weigh together, as falls of the deviance do: Fisher's method."""
+    return -2.0 * sum(log(max(chance, IMPOSSIBLE)) for chance in chances)
 
 
 def best_look(*chances: float) -> float:
