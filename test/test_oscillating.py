@@ -1,5 +1,7 @@
 """Forces that come and go at a rate of their own, told from rough floors."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from fits import ROUGH, SMOOTH, acted_otherwise, fitted
@@ -53,6 +55,15 @@ def test_drum_is_told_as_long_as_it_runs() -> None:
 @pytest.mark.parametrize('around', [SMOOTH, ROUGH])
 def test_nothing_shakes_a_robot_that_is_left_alone(around: Surroundings) -> None:
     assert find_line(fit_with(0.0, around=around)) is None
+
+
+def test_odometry_of_once_a_second_shows_no_line() -> None:
+    drive = random_forces(5, 300.0, 2.0, 14.0)
+    run = acted_otherwise(drive, drive.force)
+    seen, rare = run.odometry, slice(None, None, round(1.0 / np.diff(run.odometry.time).mean()))
+    told = replace(seen, time=seen.time[rare], twist=seen.twist[rare], pose=seen.pose[rare])
+    fit, _ = fitted(replace(run, odometry=told))
+    assert find_line(fit) is None
 
 
 def test_run_that_is_too_short_shows_no_line() -> None:

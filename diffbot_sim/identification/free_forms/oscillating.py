@@ -62,10 +62,10 @@ def oscillating(fit: Fit) -> Structure | None:
 def find_line(fit: Fit) -> Line | None:
     """Return the line that stands out most of the spectrum of a fit's errors, if one does."""
     density = np.concatenate([part.density for part in _spectra(fit)])
-    if len(density) < FEWEST:
+    first = round(SLOWEST * SPAN)
+    if len(density) < FEWEST or density.shape[1] <= first:
         return None
     mean = density.mean(axis=0)
-    first = round(SLOWEST * SPAN)
     times = np.stack([_times_beside(of_axis) for of_axis in mean.T], axis=1)[first:]
     row, axis = np.unravel_index(np.argmax(times), times.shape)
     known = 2.0 * WORTH_OF_PART * len(density)
@@ -158,7 +158,9 @@ def _forces(fit: Fit, line: Line) -> list[tuple[Array, Array, Array]]:
         whole = of_axis[:, at - near : at + near + 1].sum(axis=1) / SPAN
         usual = np.array([_beside(part, at, near, far) for part in of_axis])
         beside = usual * (2 * near + 1) / SPAN
-        if len(time):
-            above = np.sqrt(np.maximum(whole - beside, 0.0))
-            told.append((time, scale * above, scale * np.sqrt(beside)))
+        above = np.sqrt(np.maximum(whole - beside, 0.0))
+        # Encoders of a robot that stands make no errors at all, and tell nothing.
+        felt = beside > 0.0
+        if np.any(felt):
+            told.append((time[felt], scale * above[felt], scale * np.sqrt(beside[felt])))
     return told
