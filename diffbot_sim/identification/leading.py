@@ -18,23 +18,27 @@ from diffbot_sim.identification.statistics.minimisation import flatter
 # looked for.
 LONGEST, NUDGE, CLOSELY = 0.1, 5e-4, 1e-4
 ROUNDS = 5
-# A lead that lowers the BIC by more is no chance.
-CLEAR = 10.0
+# A lead that lowers the BIC by more is no chance; one that promises less than this share of it to
+# first order is not looked for.
+CLEAR, HOPEFUL = 10.0, 0.2
 
 
 def lead_of(fit: Fit) -> float:
     """Return by how much forces act before their stamps [s], 0 where that is not sure."""
-    lead, led = 0.0, fit
+    least = log(fit.whitened.size) + CLEAR
+    promised, step = _step(fit)
+    if step <= 0.0 or promised < HOPEFUL * least:
+        return 0.0
+    lead, led = min(step, LONGEST), fit
     for _ in range(ROUNDS):
-        step = _step(led)
+        led = led_by(fit, lead)
+        _, step = _step(led)
         lead = min(lead + step, LONGEST)
         if lead <= 0.0:
             return 0.0
-        led = led_by(fit, lead)
         if abs(step) < CLOSELY:
             break
-    worth = likelihood_ratio(fit, led) - log(fit.whitened.size)
-    return lead if worth > CLEAR else 0.0
+    return lead if likelihood_ratio(fit, led) > least else 0.0
 
 
 def led_by(fit: Fit, lead: float) -> Fit:
@@ -48,10 +52,13 @@ def _led(fit: Fit, lead: float) -> Fit:
     return replace(fit, stretches=moved)
 
 
-def _step(fit: Fit) -> float:
-    """Return how much longer the lead is, to first order, beside all that is fitted."""
+def _step(fit: Fit) -> tuple[float, float]:
+    """Return what more lead explains, and how much more it is, to first order.
+
+    Beside all that is fitted: a fall of the deviance, and a time [s].
+    """
     later, earlier = (_led(fit, nudge).whitened for nudge in (-NUDGE, NUDGE))
     # Where a wheel starts or stops errors jump: that lies on one side and is no slope.
     slope = flatter(earlier - fit.whitened, fit.whitened - later) / NUDGE
-    _, (step,), _ = Screen(fit).explained(slope[..., None])
-    return float(step)
+    promised, (step,), _ = Screen(fit).explained(slope[..., None])
+    return promised, float(step)
