@@ -9,7 +9,7 @@ from diffbot_sim.identification.conclusions.uncertainty import (
     estimates_at,
     farthest,
 )
-from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import fit_simulation
 from diffbot_sim.identification.recordings.stretches import whole
 from diffbot_sim.physics import Model
@@ -66,3 +66,13 @@ def test_what_a_straight_drive_does_not_show_has_a_wide_interval() -> None:
     assert found['mass'].high - found['mass'].low < 0.1 * found['mass'].value
     assert found['inertia'].high > 2.0 * found['inertia'].value
     assert found['inertia'].low >= 0.0
+
+
+def test_moment_that_was_fitted_by_simulation_is_known() -> None:
+    loaded = Model(effects=(PayloadChange(4.0, 0.2, 20.0, 0.0),))
+    run = rehearse(loaded, random_forces(1, 40.0, -9.0, 11.0), Surroundings(roughness=0.5), 1)
+    space = Space(Model(), (PayloadChange,))
+    start = np.append(SPACE.prior(), point_of(PayloadChange, (4.0, 0.2, 20.0, 0.0)))
+    moment = estimates(fit_simulation(space, whole([run]), start))['payload_change.moment']
+    assert moment.low < 20.0 < moment.high
+    assert moment.high - moment.low < 10.0

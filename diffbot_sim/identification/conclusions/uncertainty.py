@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import stats
 
 from diffbot_sim.identification.fitting.coordinates import Coordinate, Space
@@ -28,16 +29,24 @@ NEAR_BOUND = 1e-3
 
 def estimates(fit: Fit) -> dict[str, Estimate]:
     """Return every fitted parameter by its name, with its 95 % interval."""
-    found = estimates_at(
-        fit.space, fit.u, jackknife(fit.jacobian, fit.whitened, fit.prior_information)
-    )
+    free = _free(fit)
+    spread = jackknife(fit.jacobian[..., free], fit.whitened, fit.prior_information[free])
+    found = estimates_at(fit.space, fit.u, spread)
     for index in fit.space.shapes:
         coordinate = fit.space.coordinates[index]
         profile, best = _Profile(fit, index), float(fit.u[index])
         ends = (farthest(profile.rise, best, bound[index]) for bound in fit.space.bounds())
         low, high = sorted(map(coordinate.value, ends))
-        found[coordinate.name] = replace(found[coordinate.name], low=low, high=high)
+        known = found[coordinate.name]
+        if fit.runs_free:  # its errors last, and allow more than white ones
+            low, high = min(low, known.low), max(high, known.high)
+        found[coordinate.name] = replace(known, low=low, high=high)
     return found
+
+
+def _free(fit: Fit) -> NDArray[np.intp]:
+    """Return which numbers were fitted: all of u, and the gains but in a fit by simulation."""
+    return np.arange(len(fit.u) if fit.runs_free else len(fit.u) + len(fit.gains))
 
 
 def farthest(rise: Callable[[float], float], best: float, bound: float) -> float:
@@ -72,8 +81,9 @@ class _Profile:
 
     def __init__(self, fit: Fit, index: int) -> None:
         self._fit, self._index, self._known = fit, index, [fit]
-        others = np.delete(fit.jacobian, index, axis=-1).reshape(fit.whitened.size, -1)
-        self._shift = -np.linalg.pinv(others, rcond=1e-8)
+        self._others = np.delete(_free(fit), index)
+        slopes = fit.jacobian[..., self._others].reshape(fit.whitened.size, -1)
+        self._shift = -np.linalg.pinv(slopes, rcond=1e-8)
 
     def rise(self, value: float) -> float:
         """Return by how much the deviance is higher than at the fit."""
@@ -91,8 +101,9 @@ class _Profile:
     def _adapted(self, moved: Fit) -> Fit:
         """Return a step towards where the others lower the error most, by the fit's own slopes."""
         change = (moved.whitened - self._fit.whitened).ravel()
-        shift = np.insert(self._shift @ change, self._index, 0.0)
-        u, gains = np.split(np.concatenate([moved.u, moved.gains]) + shift, [len(moved.u)])
+        point = np.concatenate([moved.u, moved.gains])
+        point[self._others] += self._shift @ change
+        u, gains = np.split(point, [len(moved.u)])
         bounds = self._fit.space.bounds()
         return replace(moved, u=np.clip(u, *bounds), gains=np.clip(gains, *GAIN_LIMITS))
 

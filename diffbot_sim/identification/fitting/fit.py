@@ -45,6 +45,11 @@ class Fit:
         return self.space.model(self.u)
 
     @property
+    def runs_free(self) -> bool:
+        """Whether nothing corrects its model: it was fitted by simulation error."""
+        return not np.any(self.gains)
+
+    @property
     def incredible(self) -> frozenset[str]:
         """The effects to which it gives values that no robot has."""
         return frozenset(e.name for e in self.model.effects if not e.is_credible)
