@@ -21,7 +21,7 @@ def sandwich(jacobian: Array, errors: Array, known: Array) -> Array:
     return np.asarray(bread @ (scores.T @ scores * BLOCKS / (BLOCKS - 1)) @ bread)
 
 
-def jackknife(jacobian: Array, errors: Array, known: Array) -> Array:
+def jackknife(jacobian: Array, errors: Array, known: Array, blocks: int = BLOCKS) -> Array:
     """Return the covariance of a least-squares fit from fits that lack a block each.
 
     To first order. jacobian, shape (n, 2, p); errors, shape (n, 2); known as for `sandwich`, which
@@ -30,18 +30,18 @@ def jackknife(jacobian: Array, errors: Array, known: Array) -> Array:
     as the guess: the prior adds its own share.
     """
     prior = np.diag(known)
-    parts = [np.tensordot(j, j, ((0, 1), (0, 1))) for j in np.array_split(jacobian, BLOCKS)]
+    parts = [np.tensordot(j, j, ((0, 1), (0, 1))) for j in np.array_split(jacobian, blocks)]
     whole = sum(parts, prior)
-    scores = block_scores(jacobian, errors)
+    scores = block_scores(jacobian, errors, blocks)
     moved = [np.linalg.solve(whole - p, s) for p, s in zip(parts, scores, strict=True)]
     bread = np.linalg.inv(whole)
     guessed = bread @ prior @ bread
-    return np.asarray(np.transpose(moved) @ moved * (BLOCKS - 1) / BLOCKS + guessed)
+    return np.asarray(np.transpose(moved) @ moved * (blocks - 1) / blocks + guessed)
 
 
-def block_scores(jacobian: Array, errors: Array) -> Array:
-    """Return J'e of each block, shape (BLOCKS, p): jacobian (n, ..., p), errors (n, ...)."""
-    parts = (np.array_split(values, BLOCKS) for values in (jacobian, influence(errors)))
+def block_scores(jacobian: Array, errors: Array, blocks: int = BLOCKS) -> Array:
+    """Return J'e of each block, shape (blocks, p): jacobian (n, ..., p), errors (n, ...)."""
+    parts = (np.array_split(values, blocks) for values in (jacobian, influence(errors)))
     return np.array([np.tensordot(e, j, e.ndim) for j, e in zip(*parts, strict=True)])
 
 
