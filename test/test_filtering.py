@@ -9,7 +9,14 @@ from hypothesis import strategies as st
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
-from diffbot_sim.identification.fitting.filtering import told_each_sample, unfiltered
+from diffbot_sim.identification.fitting.coordinates import Space, point_of
+from diffbot_sim.identification.fitting.filtering import (
+    filter_behind,
+    told_each_sample,
+    unfiltered,
+)
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS, fit_prediction
+from diffbot_sim.identification.recordings.stretches import split
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
@@ -105,3 +112,10 @@ def test_late_robot_with_coloured_noise_is_not_taken_for_a_filter(memory: float)
     assert [effect.name for effect in answer.effects] == ['actuator_lag']
     # Without a pose it may well be undecided whether the twists are means.
     assert 'filter' not in [it.taken for it in answer.timings]
+
+
+def test_lag_that_nobody_asked_about_is_not_taken_for_a_filter() -> None:
+    run, space = driven((ActuatorLag(0.08),), Surroundings()), Space(Model(), (ActuatorDelay,))
+    start = np.append(Space(Model(), ()).prior(), point_of(ActuatorDelay, (0.08,)))
+    fit = fit_prediction(space, split([run])[0], start, FIRST_GAINS)
+    assert filter_behind(fit) is None

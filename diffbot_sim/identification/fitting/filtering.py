@@ -15,13 +15,14 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.special import exprel
 
-from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
 from diffbot_sim.identification.recordings.lateness import LATE, LATE_EFFECTS
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.memory import unforeseen
 from diffbot_sim.identification.statistics.norms import resolution
+from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 from diffbot_sim.records import Array, Run
 
 # Twice a log-likelihood that is so much higher is no chance.
@@ -71,9 +72,9 @@ def filter_behind(fit: Fit) -> Filter | None:
     """Return a filter that explains more than an effect that is late.
 
     It need explain only as much as one that is late by less than an interval of the odometry.
-    None where no effect is late, nothing speaks for a filter, noise of a colour of its own
-    explains more, or twists come in steps as coarse as the errors: those were made behind any
-    filter.
+    None where no effect is late, nothing speaks for a filter, noise of a colour of its own or a
+    lag explains more, though no lag was asked about, or twists come in steps as coarse as the
+    errors: those were made behind any filter.
     """
     if np.any(resolution(np.concatenate([s.twist for s in fit.stretches])) > fit.sigma):
         return None
@@ -84,6 +85,8 @@ def filter_behind(fit: Fit) -> Filter | None:
     found = [look.best() for look in looks if look.cost(look.near) <= cost + look.allowed]
     least, behind = min(found, default=(inf, None))
     if behind is None or least >= _cost_of_colour(fit) + CLEAR:
+        return None
+    if least >= _cost_of_lag(fit, behind.time_constant):
         return None
     return behind._replace(worth=cost - least)
 
@@ -136,6 +139,18 @@ def _cost_before(fit: Fit, effect: str, behind: Filter) -> float:
 def _cost_of_colour(fit: Fit) -> float:
     """Return -2 log-likelihood where all that past errors tell is the colour of the noise."""
     return _cost(fit_simulation(fit.space, fit.stretches, fit.u))
+
+
+def _cost_of_lag(fit: Fit, near: float) -> float:
+    """Return -2 log-likelihood where a lag takes the place of all that is late; near [s]."""
+    present = {kind.name for kind in fit.space.kinds}
+    if ActuatorLag.name in present | {effect.name for effect in fit.space.declared.effects}:
+        return inf
+    late = [place for name in present & set(LATE_EFFECTS) for place in fit.space.places(name)]
+    kept = (kind for kind in fit.space.kinds if kind.name not in LATE_EFFECTS)
+    start = np.append(np.delete(fit.u, late), point_of(ActuatorLag, (near,)))
+    space = Space(fit.space.declared, (*kept, ActuatorLag))
+    return _cost(fit_prediction(space, fit.stretches, start, fit.gains))
 
 
 def _cost(fit: Fit) -> float:
