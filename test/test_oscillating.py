@@ -19,7 +19,7 @@ def fit_with(
     amplitude: float, wheels: Array = AWAY, around: Surroundings = SMOOTH, seconds: float = 90.0
 ) -> Fit:
     """Return a plain fit where a drum of 1.3 Hz shakes the wheels, out of step each 7 s."""
-    drive = DRIVE if seconds == DRIVE.time[-1] else random_forces(5, seconds, 2.0, 14.0)
+    drive = random_forces(5, seconds, 2.0, 14.0)
     phase = 2.0 * np.pi * 1.3 * drive.time + 2.0 * np.floor(drive.time / 7.0) ** 2
     force = drive.force + amplitude * np.sin(phase)[:, None] * wheels
     fit, _ = fitted(acted_otherwise(drive, force, around, 5))

@@ -22,7 +22,13 @@ from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import OUTDONE
 from diffbot_sim.identification.statistics.guards import BLOCK_LEVEL
-from diffbot_sim.identification.suspicion import WORTHIER, doubted_beside, suspected, weakest
+from diffbot_sim.identification.suspicion import (
+    WORTHIER,
+    doubted_beside,
+    in_words,
+    suspected,
+    weakest,
+)
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
 
@@ -162,7 +168,7 @@ def _unfound(seen: Seen) -> Objection:
     refused = suspected(selection, seen.allowed)
     if refused is not None:
         nearest = describe(dependences(Screen(final))[0], final)
-        left = replace(nearest, description=f'{refused.words}, or {nearest.description}')
+        left = replace(nearest, description=f'{in_words(refused)}, or {nearest.description}')
         return doubted_beside(refused.worth, selection), left
     if not final.space.kinds:
         return '', pushed(final) or _nameless(seen)

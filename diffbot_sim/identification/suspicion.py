@@ -1,7 +1,6 @@
 """Suspicion: an effect that explains too much for chance, and may not enter all the same."""
 
 from math import inf
-from typing import NamedTuple
 
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import BEREFT, INCREDIBLE, Trial
@@ -20,20 +19,7 @@ REASONS = {
 }
 
 
-class Suspected(NamedTuple):
-    """An effect that was refused, and by how much it lowers the BIC all the same."""
-
-    trial: Trial
-    worth: float
-
-    @property
-    def words(self) -> str:
-        """What is said of it before the nearest free form."""
-        but = REASONS.get(self.trial.outcome, 'not all along the runs')
-        return f'something that {self.trial.kind.name} explains in part, though {but}'
-
-
-def suspected(selection: Selection, allowed: float) -> Suspected | None:
+def suspected(selection: Selection, allowed: float) -> Trial | None:
     """Return the refused effect that is most beyond chance, if one is.
 
     allowed: by how much in BIC anything may seem to explain what was allowed for.
@@ -45,7 +31,13 @@ def suspected(selection: Selection, allowed: float) -> Suspected | None:
     # Its worth takes a fit of its own, which is asked for only where it may matter.
     if most is None or most.evidence.delta_bic < least or most.worth < least:
         return None
-    return Suspected(most, most.worth)
+    return most
+
+
+def in_words(refused: Trial) -> str:
+    """Return what is said of a refused effect before the nearest free form."""
+    but = REASONS.get(refused.outcome, 'not all along the runs')
+    return f'something that {refused.kind.name} explains in part, though {but}'
 
 
 def doubted_beside(unnamed: float, selection: Selection) -> str:

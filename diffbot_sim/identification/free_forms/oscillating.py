@@ -13,12 +13,13 @@ from scipy.signal import spectrogram
 
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.views import views
+from diffbot_sim.identification.free_forms.moments import MOST_OF_SAMPLE, SURE
 from diffbot_sim.identification.free_forms.otherwise import FOLLOWING
 from diffbot_sim.identification.free_forms.structure import FORCES
 from diffbot_sim.identification.free_forms.variable import BODY
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
-from diffbot_sim.identification.statistics.guards import LIKELIHOOD_LEVEL, weight
+from diffbot_sim.identification.statistics.guards import weight
 from diffbot_sim.identification.statistics.robust import scale_of
 from diffbot_sim.records import Array
 
@@ -29,10 +30,8 @@ SPAN, WORTH_OF_PART, FEWEST = 10.0, 0.95, 5
 SLOWEST, FASTEST, OF_ODOMETRY = 0.5, 8.0, 0.4
 # A line ends so far to either side [Hz], and is held against what is there, as far as that.
 ENDS, BESIDE = 0.2, 1.0
-# It is so many times as strong, and as sure as two pushes.
-STANDS_OUT, SURE = 6.0, LIKELIHOOD_LEVEL**2
-# No error counts for more than so many deviations: an outlier has no rate.
-MOST_OF_SAMPLE = 5.0
+# It is so many times as strong, and as sure as a single push must be.
+STANDS_OUT = 6.0
 
 
 class Line(NamedTuple):
