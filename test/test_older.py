@@ -11,7 +11,7 @@ from diffbot_sim.identification.fitting.fit import FIRST_GAINS, UNIT, Fit
 from diffbot_sim.identification.older import Older, is_taken
 from diffbot_sim.identification.recordings.lateness import TWIST, of_interval_before
 from diffbot_sim.identification.selection.evidence import delta_bic_beyond_past
-from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE
+from diffbot_sim.identification.statistics.guards import VERY_STRONG
 from diffbot_sim.identification.statistics.memory import falls_beyond_past
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
@@ -60,4 +60,4 @@ def test_sums_of_counts_that_a_fit_left_to_chance_decide_nothing() -> None:
     # Next to nothing beside the noise of a sample, but it adds up, and counts do not.
     second = first + 0.02 * np.sin(np.arange(len(first)) / 500.0)[:, None]
     assert np.all(falls_beyond_past(first, second) < -30.0)
-    assert delta_bic_beyond_past(leaving(first), leaving(second)) > -INDISTINGUISHABLE
+    assert delta_bic_beyond_past(leaving(first), leaving(second)) > -VERY_STRONG

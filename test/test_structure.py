@@ -30,6 +30,7 @@ from diffbot_sim.physics import Friction, Model, simulate
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
 from diffbot_sim.physics.effects.direction_dependent_friction import DirectionDependentFriction
 from diffbot_sim.physics.effects.effective_track import EffectiveTrack
+from diffbot_sim.physics.effects.power_limit import PowerLimit
 from diffbot_sim.physics.effects.transmission_loss import TransmissionLoss
 from diffbot_sim.physics.effects.yaw_friction import YawFriction
 from diffbot_sim.records import Commands, Run
@@ -45,6 +46,13 @@ def test_weak_force_in_proportion_to_something_is_told_as_a_line() -> None:
     left, *_ = left_by(rehearse(uneven, random_forces(3, 60.0, -9.0, 11.0), ROUGH, 3))
     assert (left.basis.variable, left.basis.axis) == ('wheel_force', 'difference')
     assert left.basis.size == 2
+
+
+@pytest.mark.parametrize('around', [SMOOTH, ROUGH], ids=['smooth', 'rough'])
+def test_weak_motors_are_told_by_the_power_they_are_asked_for(around: Surroundings) -> None:
+    weak = Model().with_effect(PowerLimit(power=4.0))
+    left, *_ = left_by(rehearse(weak, random_forces(3, 60.0, -20.0, 20.0), around, 3))
+    assert (left.basis.variable, left.basis.axis) == ('force_over_power', 'wheels')
 
 
 @pytest.mark.parametrize('around', [SMOOTH, ROUGH], ids=['smooth', 'rough'])

@@ -5,11 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from diffbot_sim.identification.doubt import BEYOND_CHANCE, CLEARLY
+from diffbot_sim.identification.doubt import BEYOND_CHANCE
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
 from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.selection.evidence import delta_bic
+from diffbot_sim.identification.statistics.guards import VERY_STRONG
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array
@@ -87,7 +88,7 @@ def explains_better(other: Found, found: Found) -> bool:
         return other.unexplained is None
     if _as_taken(found) != _as_taken(other):
         return len(other.names) < len(found.names)
-    return delta_bic(found.undoubted.final, other.undoubted.final) > CLEARLY
+    return delta_bic(found.undoubted.final, other.undoubted.final) > VERY_STRONG
 
 
 def _as_taken(found: Found) -> tuple[object, ...]:

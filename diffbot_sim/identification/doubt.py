@@ -21,7 +21,7 @@ from diffbot_sim.identification.selection.evidence import delta_bic
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import OUTDONE
-from diffbot_sim.identification.statistics.guards import BLOCK_LEVEL
+from diffbot_sim.identification.statistics.guards import BLOCK_LEVEL, VERY_STRONG
 from diffbot_sim.identification.suspicion import (
     WORTHIER,
     doubted_beside,
@@ -32,8 +32,6 @@ from diffbot_sim.identification.suspicion import (
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
 
-# By how much in BIC a free form must beat an effect before the effect's name is withdrawn.
-CLEARLY = 10.0
 # An effect that takes this share of its worth from a free form stands or falls with it.
 TAKEN_SHARE = 0.5
 # Shares of what an effect explains. A law of the right form leaves less than the first to a free
@@ -201,7 +199,7 @@ def _outdone(rest: Fit, final: Fit, kinds: Sequence[type[Effect]]) -> Dependence
     named = max(worth, *(screen.score(kind).ratio for kind in kinds))
     named -= sum(map(screen.price, kinds))
     best = dependences(screen)[0]
-    if worth_of(best, rest) < named + CLEARLY or best.p_block > BLOCK_LEVEL:
+    if worth_of(best, rest) < named + VERY_STRONG or best.p_block > BLOCK_LEVEL:
         return None
     whole, left = (_acting_in(fit, best, final.sigma) for fit in (rest, final))
     if worth_of(whole, rest) <= named:

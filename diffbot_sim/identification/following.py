@@ -12,7 +12,7 @@ from diffbot_sim.identification.free_forms.otherwise import force_over_time
 from diffbot_sim.identification.recordings.free_running import run_free
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
-from diffbot_sim.identification.statistics.norms import norm
+from diffbot_sim.identification.statistics.norms import rms_of_each
 
 # A simulation whose errors are no less than this share of the motion explains none of it.
 NONE = 0.9
@@ -50,5 +50,5 @@ def explains(fit: Fit, stretches: Sequence[Stretch]) -> bool:
     motion = np.concatenate([s.twist[counts] for s, counts in zip(stretches, later, strict=True)])
     if not motion.size:
         return True
-    left, all_of_it = (norm(x).pair for x in (errors, motion))
+    left, all_of_it = (rms_of_each(x) for x in (errors, motion))
     return bool(np.any(left < NONE * all_of_it))

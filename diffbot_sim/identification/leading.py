@@ -12,20 +12,20 @@ from diffbot_sim.identification.recordings.acting import acted_before
 from diffbot_sim.identification.selection.candidates import begun_anew
 from diffbot_sim.identification.selection.evidence import likelihood_ratio
 from diffbot_sim.identification.selection.screening import Screen
+from diffbot_sim.identification.statistics.guards import VERY_STRONG
 from diffbot_sim.identification.statistics.minimisation import flatter
 
 # The longest lead [s], by how little it is moved to see what that does, and how closely it is
 # looked for.
 LONGEST, NUDGE, CLOSELY = 0.1, 5e-4, 1e-4
 ROUNDS = 5
-# A lead that lowers the BIC by more is no chance; one that promises less than this share of it to
-# first order is not looked for.
-CLEAR, HOPEFUL = 10.0, 0.2
+# A lead that promises less than this share of what it must explain is not looked for.
+HOPEFUL = 0.2
 
 
 def lead_of(fit: Fit) -> float:
     """Return by how much forces act before their stamps [s], 0 where that is not sure."""
-    least = log(fit.whitened.size) + CLEAR
+    least = log(fit.whitened.size) + VERY_STRONG
     promised, step = _step(fit)
     if step <= 0.0 or promised < HOPEFUL * least:
         return 0.0
@@ -43,10 +43,10 @@ def lead_of(fit: Fit) -> float:
 
 def led_by(fit: Fit, lead: float) -> Fit:
     """Fit a structure again to forces that act so long before their stamps [s]."""
-    return begun_anew(_led(fit, lead))
+    return begun_anew(_moved(fit, lead))
 
 
-def _led(fit: Fit, lead: float) -> Fit:
+def _moved(fit: Fit, lead: float) -> Fit:
     """Return a fit as it is on forces that act so long before their stamps."""
     moved = tuple(replace(s, run=acted_before(s.run, lead)) for s in fit.stretches)
     return replace(fit, stretches=moved)
@@ -57,7 +57,7 @@ def _step(fit: Fit) -> tuple[float, float]:
 
     Beside all that is fitted: a fall of the deviance, and a time [s].
     """
-    later, earlier = (_led(fit, nudge).whitened for nudge in (-NUDGE, NUDGE))
+    later, earlier = (_moved(fit, nudge).whitened for nudge in (-NUDGE, NUDGE))
     # Where a wheel starts or stops errors jump: that lies on one side and is no slope.
     slope = flatter(earlier - fit.whitened, fit.whitened - later) / NUDGE
     promised, (step,), _ = Screen(fit).explained(slope[..., None])

@@ -33,8 +33,8 @@ from diffbot_sim.identification.selection.evidence import (
     delta_bic_of_both,
     delta_bic_of_speed,
 )
-from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE
 from diffbot_sim.identification.selection.screening import Screen
+from diffbot_sim.identification.statistics.guards import VERY_STRONG
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Run
 
@@ -82,7 +82,7 @@ class Ages:
         interval = min(median_interval(run.odometry.time) for run in self._recordings.kept)
         needless = 0.0 < _lateness(self._final) < interval
         fits = self._less_late if needless else self._again
-        least = -INDISTINGUISHABLE if _ways_late(self._final) > 1 else INDISTINGUISHABLE
+        least = -VERY_STRONG if _ways_late(self._final) > 1 else VERY_STRONG
         told = {
             older: delta_bic_beyond_past(self._final, fit)
             for older, fit in fits.items()
@@ -110,7 +110,7 @@ class Ages:
         """Whether older twists would explain all as well by a robot that is less late."""
         late = _lateness(self._final)
         return late > 0.0 and any(
-            o.worth(self._final, fit) > -INDISTINGUISHABLE and _lateness(fit) < late
+            o.worth(self._final, fit) > -VERY_STRONG and _lateness(fit) < late
             for o, fit in self._again.items()
         )
 
@@ -141,7 +141,7 @@ def is_taken(older: Older, first: Fit, second: Fit, unexplained: float) -> bool:
     robot is late in fewer ways.
     unexplained: worth of a force that has no name, beside which worths are known so much worse.
     """
-    if older.worth(first, second) > INDISTINGUISHABLE:
+    if older.worth(first, second) > VERY_STRONG:
         return True
     as_good = _as_good(first, second, unexplained)
     return _is_simpler(first, second) and older.together(first, second) > as_good
@@ -168,7 +168,7 @@ def _is_simpler(first: Fit, second: Fit) -> bool:
 def _as_good(first: Fit, second: Fit, unexplained: float) -> float:
     """Return the worth beyond which a simpler second fit is as good as the first."""
     share = 1.0 if _is_of_means(first, second) else DECIDING_SHARE
-    return -max(INDISTINGUISHABLE, share * unexplained)
+    return -max(VERY_STRONG, share * unexplained)
 
 
 def is_beyond_doubt(

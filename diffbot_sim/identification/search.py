@@ -119,7 +119,7 @@ def _own_effects(run: Run, others: Found, question: Question) -> frozenset[str] 
 def _asked(recordings: Recordings, question: Question) -> Found:
     """Search in recordings, and ask all that may be wrong with their stamps and their friction."""
     found = _settled(_timed(recordings, question), question)
-    return without_worsening(_begun_later(_led(found, question), question))
+    return without_worsening(_begun_later(_allowing_a_lead(found, question), question))
 
 
 def _settled(found: Found, question: Question) -> Found:
@@ -185,7 +185,7 @@ def _unfiltered(found: Found, question: Question) -> Found:
     return replace(other, time_constant=behind.time_constant)
 
 
-def _led(found: Found, question: Question) -> Found:
+def _allowing_a_lead(found: Found, question: Question) -> Found:
     """Search again where forces act before their stamps, if that leaves less to be told."""
     if found.lead > 0.0 or not found.says_something:
         return found

@@ -17,7 +17,7 @@ from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch, whole
-from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE
+from diffbot_sim.identification.statistics.guards import VERY_STRONG
 from diffbot_sim.identification.statistics.robust import HUBER, huber
 from diffbot_sim.physics.effects.wheel_ripple import WheelRipple
 from diffbot_sim.physics.kinematics import body_twist
@@ -62,7 +62,7 @@ def _rolled(told: Fit, stretch: Stretch) -> tuple[float, float]:
     best = min(grid, key=lambda parts: huber(errors(parts)).sum())
     best = least_squares(errors, best, loss='huber', f_scale=HUBER, diff_step=1e-4, max_nfev=10).x
     as_it_was, better = (float(huber(errors(at)).sum()) for at in (np.zeros(2), best))
-    price = 2.0 * float(np.log(2 * np.count_nonzero(stretch.used))) + INDISTINGUISHABLE
+    price = 2.0 * float(np.log(2 * np.count_nonzero(stretch.used))) + VERY_STRONG
     return rolled(best) if as_it_was - better > price else NOWHERE
 
 

@@ -92,6 +92,7 @@ STRUCTURE_LABELS = {
     'yaw_swing': 'time after a jump of ω by 1 rad/s [s]',
     'drive': 'force that drives a wheel, or brakes it [N]',
     'force_over_speed': 'speed of a wheel, either way [m/s]',
+    'force_over_power': 'power asked of a wheel, or, below zero, taken [W]',
     'force_change': 'age of the command [s]',
     'past_force': 'age of the command [s]',
     'force_over_time': 'time [s]',

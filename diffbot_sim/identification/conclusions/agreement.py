@@ -193,7 +193,7 @@ def _check(fit: Fit, own: Estimated, others: Estimated, runs: int) -> RunCheck:
     differences = tuple(
         Difference(names[index], here[names[index]], there[names[index]])
         for index in np.argsort(chance, kind='stable')
-        if chance[index] < LEVEL and _apart(here[names[index]], there[names[index]])
+        if chance[index] < LEVEL and _disjoint(here[names[index]], there[names[index]])
     )
     floor = noise_floor([stretch.twist], [predicted])
     radius, half = fit.model.robot.wheel_radius, fit.model.half_separation
@@ -203,6 +203,6 @@ def _check(fit: Fit, own: Estimated, others: Estimated, runs: int) -> RunCheck:
     return RunCheck(stretch.run.name, error, floor, differences, wheel_angles=angles)
 
 
-def _apart(here: Estimate, there: Estimate) -> bool:
+def _disjoint(here: Estimate, there: Estimate) -> bool:
     """Tell whether intervals are disjoint: mu_static is fitted as an excess, which may differ."""
     return here.low > there.high or there.low > here.high

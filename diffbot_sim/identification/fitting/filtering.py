@@ -20,13 +20,12 @@ from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_predict
 from diffbot_sim.identification.recordings.lateness import LATE, LATE_EFFECTS
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.statistics.guards import VERY_STRONG
 from diffbot_sim.identification.statistics.memory import unforeseen
 from diffbot_sim.identification.statistics.norms import resolution
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 from diffbot_sim.records import Array, Run
 
-# Twice a log-likelihood that is so much higher is no chance.
-CLEAR = 10.0
 # How far from an effect's lateness the time constant is looked for, and how closely: shares.
 WITHIN, CLOSELY, LOOKS = 4.0, 0.02, 12
 
@@ -84,7 +83,7 @@ def filter_behind(fit: Fit) -> Filter | None:
     cost = _cost(fit)
     found = [look.best() for look in looks if look.cost(look.near) <= cost + look.allowed]
     least, behind = min(found, default=(inf, None))
-    if behind is None or least >= _cost_of_colour(fit) + CLEAR:
+    if behind is None or least >= _cost_of_colour(fit) + VERY_STRONG:
         return None
     if least >= _cost_of_lag(fit, behind.time_constant):
         return None
@@ -103,7 +102,7 @@ class _Look:
     @property
     def allowed(self) -> float:
         """How much higher the cost may be: what is late by less than an interval is odometry."""
-        return CLEAR if self.near < self.fit.stretches[0].interval else -CLEAR
+        return VERY_STRONG if self.near < self.fit.stretches[0].interval else -VERY_STRONG
 
     def filter(self, time_constant: float) -> Filter:
         return self.kind(time_constant, self.fit.stretches[0].interval)

@@ -67,12 +67,12 @@ def _orders(seen: Sequence[View], senses: Array, teeth: int) -> tuple[float, ...
 
 def rates(seen: Sequence[View]) -> tuple[float, ...]:
     """Return the cycles per second at which the innovations are strongest."""
-    return _rates(seen, _apart(seen), 1)
+    return _rates(seen, _whitened(seen), 1)
 
 
 def repeats(seen: Sequence[View]) -> tuple[float, ...]:
     """Return the cycles per second of which several harmonics together are strongest."""
-    return _rates(seen, _apart(seen), TEETH)
+    return _rates(seen, _whitened(seen), TEETH)
 
 
 def gain_rates(seen: Sequence[View]) -> tuple[float, ...]:
@@ -92,7 +92,7 @@ def force_rates(seen: Sequence[View]) -> tuple[float, ...]:
     return _strongest(band, spacing, 2.0 * np.pi * force, errors, level=STEP_LEVEL)
 
 
-def _apart(seen: Sequence[View]) -> Array:
+def _whitened(seen: Sequence[View]) -> Array:
     """Return innovations over their scale."""
     return np.concatenate([view.innovation / view.fit.sigma for view in seen])
 

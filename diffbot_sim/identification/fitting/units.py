@@ -8,7 +8,7 @@ from diffbot_sim.errors import DataError
 from diffbot_sim.identification.fitting.calibration import simulation_errors
 from diffbot_sim.identification.fitting.coordinates import FREE_OF_ROBOT, Space
 from diffbot_sim.identification.recordings.stretches import Stretch, motion_of
-from diffbot_sim.identification.statistics.norms import norm
+from diffbot_sim.identification.statistics.norms import rms_of_each
 from diffbot_sim.records import Array
 
 # Powers of ten that a number in another unit may be wrong by: g, kg·cm².
@@ -23,7 +23,7 @@ def check_units(space: Space, stretches: tuple[Stretch, ...]) -> None:
     motion = motion_of(stretches)
 
     def errors(point: Array) -> Array:
-        return norm(simulation_errors(space, stretches, point)).pair
+        return rms_of_each(simulation_errors(space, stretches, point))
 
     most = LEFT * np.minimum(motion, errors(space.prior()))
     # The mass, which shows in the speed, comes first, then the inertia, in the turn rate.

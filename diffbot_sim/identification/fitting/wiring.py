@@ -13,7 +13,7 @@ from diffbot_sim.identification.fitting.predictor import NO_GAIN, predict
 from diffbot_sim.identification.recordings.acting import acted_before
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.stretches import Stretch, motion_of
-from diffbot_sim.identification.statistics.norms import norm, white_noise
+from diffbot_sim.identification.statistics.norms import rms_of_each, white_noise
 from diffbot_sim.records import Array, Commands, Run
 
 # It is a fault if without it less than such shares are left of the motion, and of the error.
@@ -94,8 +94,8 @@ def _shares(stretches: tuple[Stretch, ...], space: Space) -> Array:
     Around its mean; not a number where it hardly moves.
     """
     motion = motion_of(stretches)
-    noise = norm(np.array([white_noise(s.twist[s.used > 0]) for s in stretches])).pair
-    error = norm(simulation_errors(space, stretches, space.prior())).pair
+    noise = rms_of_each(np.array([white_noise(s.twist[s.used > 0]) for s in stretches]))
+    error = rms_of_each(simulation_errors(space, stretches, space.prior()))
     moves = motion > BEYOND_NOISE * noise + NOTHING
     return np.where(moves, error / np.where(moves, motion, 1.0), np.nan)
 

@@ -85,13 +85,14 @@ def find_moments(fit: Fit) -> list[Moment]:
         return []
     # Errors that depend on the last ones add up to more, or less, than independent ones.
     deviation = np.maximum(scale_of(sums), 1.0)
-    return _apart(_beyond_chance(each, deviation, sums.size), 2.0 * WINDOW)
+    return _surest_apart(_beyond_chance(each, deviation, sums.size), 2.0 * WINDOW)
 
 
 def find_outstanding(fit: Fit) -> list[Moment]:
     """Return moments at which the force that a fit lacks stands out of what it usually is."""
     felt = _felt(fit)
-    return _apart((moment for axis in (0, 1) for moment in _outstanding(felt, axis)), LASTING)
+    found = (moment for axis in (0, 1) for moment in _outstanding(felt, axis))
+    return _surest_apart(found, LASTING)
 
 
 def _felt(fit: Fit) -> list[tuple[View, Response]]:
@@ -120,7 +121,7 @@ def _steadily(view: View, time: Array, force: Array, error: Array) -> Array:
     return np.stack([time, force, error])[:, ends[0] == ends[1]]
 
 
-def _apart(moments: Iterable[Moment], span: float) -> list[Moment]:
+def _surest_apart(moments: Iterable[Moment], span: float) -> list[Moment]:
     """Return the surest of moments within a span [s] of each other, the surest first."""
     found = list[Moment]()
     for moment in sorted(moments, key=lambda m: m.p_value):

@@ -56,6 +56,11 @@ def driving(view: View) -> Array:
     return np.asarray(view.force * rolling(view))
 
 
+def power(view: View) -> Array:
+    """Return the power that each wheel is asked for, or, below zero, is to take [W]."""
+    return np.asarray(view.force * view.wheel_speed)
+
+
 def others_force(view: View) -> Array:
     """Return the force commanded to the other wheel [N]."""
     return view.force[:, ::-1]

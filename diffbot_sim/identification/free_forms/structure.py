@@ -22,12 +22,12 @@ from diffbot_sim.identification.free_forms.variables import VARIABLES
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure
-from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.statistics.gains import chance_of
 from diffbot_sim.identification.statistics.guards import (
     BLOCK_LEVEL,
     EITHER_LEVEL,
+    VERY_STRONG,
     elsewhere,
     is_chance,
     lasting,
@@ -118,7 +118,7 @@ def _least_worth(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) 
 
 def _may_be_chance(dependence: Dependence, fit: Fit, tried: int) -> bool:
     # Like a name, it must lower the BIC by what tells structures apart.
-    worth = worth_of(dependence, fit) - INDISTINGUISHABLE
+    worth = worth_of(dependence, fit) - VERY_STRONG
     return may_be_chance(dependence.p_value, worth, tried)
 
 

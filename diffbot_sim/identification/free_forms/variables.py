@@ -37,6 +37,7 @@ from diffbot_sim.identification.free_forms.places import PLACES
 from diffbot_sim.identification.free_forms.quantities import (
     driving,
     others_force,
+    power,
     rolling,
     rolls,
     share_of_force,
@@ -191,6 +192,11 @@ VARIABLES = {
     'force_over_speed': Variable(
         "each wheel's speed, in proportion to the commanded force",
         Growth(wheel_speeds, share_of_force, GROWTH_KNOTS),
+        ('wheels',),
+    ),
+    'force_over_power': Variable(
+        'the power that each wheel is asked for, in proportion to the commanded force',
+        Growth(power, share_of_force, GROWTH_KNOTS),
         ('wheels',),
     ),
     'force_change': Variable(

@@ -6,7 +6,7 @@ import numpy as np
 
 from diffbot_sim.errors import DataError
 from diffbot_sim.identification.recordings.stretches import Stretch, largest_command
-from diffbot_sim.identification.statistics.norms import norm, white_noise
+from diffbot_sim.identification.statistics.norms import rms_of_each, white_noise
 
 # A twist moves that is so many times its noise, and more than this [m/s, rad/s], in the mean.
 BEYOND_NOISE, HARMLESS = 1.2, 5e-4
@@ -36,7 +36,7 @@ def check(fitted: Sequence[Stretch], held_out: Sequence[Stretch]) -> None:
 
 def moves(stretch: Stretch) -> bool:
     """Say whether a robot is seen to move."""
-    size = norm(stretch.twist).pair
+    size = rms_of_each(stretch.twist)
     return bool(np.any(size > BEYOND_NOISE * white_noise(stretch.twist) + HARMLESS))
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from diffbot_sim.identification.recordings.measurement import simulated
 from diffbot_sim.identification.recordings.start import start_of
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.statistics.norms import norm
+from diffbot_sim.identification.statistics.norms import rms_of_each
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array, Trajectory
 
@@ -26,4 +26,4 @@ def run_free(model: Model, stretch: Stretch) -> Trajectory:
 def free_running_error(model: Model, held_out: Sequence[Stretch]) -> Array:
     """Return the error of v [m/s] and ω [rad/s] on held-out stretches, pooled, shape (2,)."""
     misses = [stretch.twist - run_free(model, stretch).twist for stretch in held_out]
-    return np.maximum(norm(np.concatenate(misses)).pair, NOTHING)
+    return np.maximum(rms_of_each(np.concatenate(misses)), NOTHING)

@@ -18,7 +18,7 @@ from diffbot_sim.identification.recordings.smoothing import smoothed_over
 from diffbot_sim.identification.recordings.stretches import averaged
 from diffbot_sim.identification.recordings.way import path_of
 from diffbot_sim.identification.result import Timing
-from diffbot_sim.identification.statistics.norms import norm, white_noise
+from diffbot_sim.identification.statistics.norms import rms_of_each, white_noise
 from diffbot_sim.records import Array, Odometry, Run
 from diffbot_sim.standing import unfilled
 
@@ -75,7 +75,7 @@ def _by_pose(run: Run, longest: int) -> Run:
     for group in range(1, longest + 1):
         taken = as_pose_moves(averaged(run, group))
         twist = taken.odometry.twist
-        if np.all(white_noise(twist) < CLEAR * norm(twist).pair):
+        if np.all(white_noise(twist) < CLEAR * rms_of_each(twist)):
             break
     return taken
 
@@ -183,9 +183,9 @@ def _is_summed(path: Array, odometry: Odometry) -> bool:
     """
     moved, steps = np.diff(path, axis=0), np.diff(odometry.time)[:, None]
     before, after = steps * odometry.twist[:-1], steps * odometry.twist[1:]
-    apart = norm(after - before).pair
+    apart = rms_of_each(after - before)
     ways = (moved - share * before - (1.0 - share) * after for share in (1.0, 0.5))
-    return any(np.all(norm(missed).pair < SUMMED * apart) for missed in ways)
+    return any(np.all(rms_of_each(missed) < SUMMED * apart) for missed in ways)
 
 
 def _errors(odometry: Odometry, path: Array, of: Components, lag: float) -> Array:

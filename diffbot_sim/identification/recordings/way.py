@@ -8,7 +8,7 @@ import numpy as np
 from scipy.ndimage import uniform_filter1d
 
 from diffbot_sim.identification.recordings.intervals import median_interval
-from diffbot_sim.identification.statistics.norms import norm, white_noise
+from diffbot_sim.identification.statistics.norms import rms_of_each, white_noise
 from diffbot_sim.records import Array, Odometry
 
 # Over which time what a pose tells beyond its twist is smoothed, and after which it is held
@@ -101,7 +101,7 @@ def _knows_more(odometry: Odometry, pose: Array, beyond: Array) -> bool:
     if len(beyond) <= later:
         return False
     step = white_noise(odometry.twist) * median_interval(odometry.time)
-    parted = norm(beyond[later:] - beyond[:-later]).pair
+    parted = rms_of_each(beyond[later:] - beyond[:-later])
     parted /= step * np.sqrt(later) + TINY
     # Noise of a place cancels from step to step but for the turn between.
     own = white_noise(pose[:, :2]).max() * np.linalg.norm(np.diff(pose[:, 2]))

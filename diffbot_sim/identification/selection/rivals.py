@@ -5,9 +5,8 @@ from math import inf
 
 from diffbot_sim.identification.fitting.fit import ROUNDS, Fit, fit_prediction
 from diffbot_sim.identification.selection.evidence import delta_bic
+from diffbot_sim.identification.statistics.guards import VERY_STRONG
 
-# Structures closer than this in BIC cannot be told apart.
-INDISTINGUISHABLE = 10.0
 # A rival that makes up for less than this share of what it lacks, in a round, will not come up.
 CATCHING_UP = 0.1
 
@@ -27,7 +26,7 @@ def _catches_up(rival: Fit, best: Fit) -> bool:
     for _ in range(ROUNDS):
         rival = fit_prediction(rival.space, rival.stretches, rival.u, rival.gains, rounds=1)
         before, behind = behind, delta_bic(rival, best)
-        if behind < INDISTINGUISHABLE:
+        if behind < VERY_STRONG:
             return True
         if before - behind < CATCHING_UP * behind:
             return False

@@ -19,11 +19,12 @@ from diffbot_sim.identification.selection.evidence import (
     wald,
 )
 from diffbot_sim.identification.selection.feedback import is_of_feedback
-from diffbot_sim.identification.selection.rivals import INDISTINGUISHABLE, comes_up
+from diffbot_sim.identification.selection.rivals import comes_up
 from diffbot_sim.identification.selection.screening import PROMISING, Score, Screen
 from diffbot_sim.identification.statistics.guards import (
     BLOCK_LEVEL,
     ELSEWHERE_LEVEL,
+    VERY_STRONG,
     lasting,
     may_be_chance,
 )
@@ -134,7 +135,7 @@ def _judged(
     bar = WORTH_COMPLETING * max((a.fall for a in near), default=0.0)
     leaders = [a for a in near if a.fall >= bar]
     others = [a for a in near if a.fall < bar]
-    first = _led(screen, leaders, held_out, tried)
+    first = _fitted_in_turn(screen, leaders, held_out, tried)
     if any(trial.accepted for trial in first):
         behind = [(a.kind, a.fall) for a in others] + [(k, s.ratio) for k, s in far.items()]
         return [*first, *(_not_fitted(screen, *told, BEHIND) for told in behind)]
@@ -142,7 +143,7 @@ def _judged(
     return [*first, *(_completed(screen, a, held_out, tried) for a in others)]
 
 
-def _led(
+def _fitted_in_turn(
     screen: Screen, leaders: Sequence[_Approach], held_out: Sequence[Stretch], tried: int
 ) -> list[Trial]:
     """Fit leaders to the end, the best first; others while they may come up to one accepted."""
@@ -232,6 +233,6 @@ def judge(evidence: Evidence, tried: int) -> str:
 
 def judge_again(evidence: Evidence, tried: int) -> str:
     """Say the same of an effect among all that entered: what lacks it must not explain as much."""
-    if may_be_chance(evidence.p_value, evidence.delta_bic - INDISTINGUISHABLE, tried):
+    if may_be_chance(evidence.p_value, evidence.delta_bic - VERY_STRONG, tried):
         return NEEDLESS
     return judge(evidence, tried)

@@ -21,6 +21,10 @@ WEIGHTS = (1.0, 2.0)
 # Signed ranks of twenty blocks are never surer than this.
 SUREST = 2.0**-20
 
+# What lowers the BIC by less tells structures apart by no more than chance might: above it Kass
+# and Raftery (1995) call evidence very strong.
+VERY_STRONG = 10.0
+
 # A chance that is as good as none.
 IMPOSSIBLE = 1e-300
 

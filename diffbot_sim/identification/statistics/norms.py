@@ -18,7 +18,12 @@ FAR, CLIPS = 5.0, 10
 
 def norm(errors: Array) -> ErrorNorm:
     """Return root mean squares of the columns v and ω."""
-    return ErrorNorm.of(np.sqrt(np.mean(errors**2, axis=0)))
+    return ErrorNorm.of(rms_of_each(errors))
+
+
+def rms_of_each(values: Array) -> Array:
+    """Return the root mean square of each column, shape (2,) of v and ω."""
+    return np.asarray(np.sqrt(np.mean(values**2, axis=0)))
 
 
 def rms(values: Array) -> float:
@@ -32,14 +37,14 @@ def noise_floor(twists: Sequence[Array], models: Sequence[Array]) -> ErrorNorm:
     twists: measured, one array (n, 2) for each stretch; models: what a model has there. White
     noise, or what the steps of a coarse encoder stand for where that is more.
     """
-    white = norm(np.concatenate([_white(t - m) for t, m in zip(twists, models, strict=True)]))
+    white = np.concatenate([_white(t - m) for t, m in zip(twists, models, strict=True)])
     coarse = resolution(np.concatenate(twists)) / np.sqrt(12.0)
-    return ErrorNorm.of(np.maximum(white.pair, coarse))
+    return ErrorNorm.of(np.maximum(rms_of_each(white), coarse))
 
 
 def white_noise(twist: Array) -> Array:
     """Return the white noise of a measured twist (n, 2), which moves smoothly; shape (2,)."""
-    return norm(_white(twist)).pair
+    return rms_of_each(_white(twist))
 
 
 def _white(errors: Array) -> Array:
