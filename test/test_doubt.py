@@ -7,7 +7,7 @@ from math import nan
 import pytest
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
-from diffbot_sim.identification.doubt import doubt
+from diffbot_sim.identification.doubt import Seen, doubt
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
 from diffbot_sim.identification.free_forms.bases import bases
@@ -46,7 +46,7 @@ def answer_after(
     fit, held_out = fitted()
     evidence = Evidence(delta_bic, 0.0, 0.05, 0.1, held, folds)
     trial = Trial(QuadraticDrag, tried or fitted(EXPLAINING)[0], evidence, outcome)
-    return doubt(Selection(fit, fit, (trial,), {}, {}, {}), held_out)
+    return doubt(Seen(Selection(fit, fit, (trial,), {}, {}, {}), held_out))
 
 
 def test_noise_has_no_rhythm_that_is_worth_a_try() -> None:
@@ -76,7 +76,7 @@ def test_name_that_explains_nothing_as_it_is_looked_at_is_withdrawn() -> None:
     sure = Evidence(90.0, 0.0, 0.0, 0.1, 0.0, 0.0)
     name = QuadraticDrag.name
     selection = Selection(fit, needless, (), {name: fit}, {name: sure}, {name: ()})
-    doubted = doubt(selection, held_out)
+    doubted = doubt(Seen(selection, held_out))
     assert (doubted.selection.final, doubted.unexplained) == (fit, None)
 
 

@@ -49,13 +49,13 @@ class Seen(NamedTuple):
     """A selection, and held-out data, as they are looked at.
 
     near_rest: by how much a friction near rest that is allowed for lowers the deviance; strict:
-    the final fit before that.
+    the same without that, None where nothing is allowed for.
     """
 
     selection: Selection
     held_out: Sequence[Stretch]
     near_rest: float = 0.0
-    strict: Fit | None = None
+    strict: 'Seen | None' = None
 
     @property
     def allowed(self) -> float:
@@ -90,22 +90,22 @@ def with_friction_eased(selection: Selection, held_out: Sequence[Stretch]) -> Se
     base = refitted(selection.base) if len(without) > 1 else selection.base
     seen = replace(selection, base=base, final=final, without=without)
     gained = selection.final.deviance(final.sigma) - final.deviance(final.sigma)
-    return Seen(seen, held, gained, selection.final)
+    return Seen(seen, held, gained, Seen(selection, held_out))
 
 
-def doubt(selection: Selection, held_out: Sequence[Stretch], look: Look = Seen) -> Doubted:
+def doubt(seen: Seen, look: Look = Seen) -> Doubted:
     """Withdraw names that do not stand up to a free-form force; return what is left unnamed.
 
     So goes a name that nothing needs as it is looked at, one that a free form outdoes, the weakest
     where one free form outdoes all together, and a name whose law leaves much of what it is about,
     or explains little beside that.
-    look: how a selection is looked at, as it is unless given.
+    look: how what is left is looked at, as it is unless given.
     """
-    seen = look(selection, held_out)
     name, left = _needless_name(seen) or _outdone_name(seen) or _left_over(seen)
+    selection, held_out, *_ = seen.strict or seen
     if not name:
         return Doubted(selection, left, seen.near_rest)
-    doubted = doubt(selection.withdrawn(name, held_out, OUTDONE), held_out, look)
+    doubted = doubt(look(selection.withdrawn(name, held_out, OUTDONE), held_out), look)
     # There is structure, if only what the name went for.
     return doubted._replace(unexplained=doubted.unexplained or left)
 
@@ -180,7 +180,7 @@ def _nameless(seen: Seen) -> Structure | None:
     """Return what depends on nothing, and is too much for noise all the same."""
     otherwise = moves_otherwise(seen.selection.final, seen.held_out)
     # What is left of friction near rest that is allowed for comes in bursts, too.
-    if otherwise or (seen.strict is not None and bursts(seen.strict) is None):
+    if otherwise or (seen.strict and bursts(seen.strict.selection.final) is None):
         return otherwise
     return bursts(seen.selection.final) or oscillating(seen.selection.final)
 

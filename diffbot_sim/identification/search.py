@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from diffbot_sim.errors import DataError
-from diffbot_sim.identification.doubt import doubt, with_friction_eased
+from diffbot_sim.identification.doubt import Seen, doubt, with_friction_eased
 from diffbot_sim.identification.fitting.calibration import calibrate, simulation_error
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filtering import filter_behind, unfiltered
@@ -127,7 +127,10 @@ def _settled(found: Found, question: Question) -> Found:
     if found.unexplained is None:
         return found
     question.progress('allowing for friction near rest')
-    doubted = doubt(found.undoubted, found.held_out, with_friction_eased)
+    eased = _eased(found)
+    if eased is None:
+        return found
+    doubted = doubt(eased, with_friction_eased)
     # What chance could allow for excuses nothing, nor does what leaves something else to be told.
     # Nor is excused what is worth more, less what names explain of it that stand only then.
     support = doubted.selection.support
@@ -135,6 +138,18 @@ def _settled(found: Found, question: Question) -> Found:
     least = max(SUSPICIOUS, found.unexplained.worth - only_then)
     excused = doubted.unexplained is None and doubted.near_rest > least
     return replace(found, **doubted._asdict()) if excused else found
+
+
+def _eased(found: Found) -> Seen | None:
+    """Look at what was found with friction near rest allowed for; None where that is nothing.
+
+    Where it is nothing beside all names, doubt has not changed until it took some of them.
+    """
+    selections = [found.undoubted]
+    if found.selection is not found.undoubted:
+        selections.append(found.selection)
+    seen = (with_friction_eased(selection, found.held_out) for selection in selections)
+    return next((it for it in seen if it.strict), None)
 
 
 def _timed(recordings: Recordings, question: Question) -> Found:
@@ -268,5 +283,5 @@ def _doubted(begun: Begun, question: Question) -> Found:
     """Find the structure, and doubt what was found."""
     selection = select(begun.base, question.kinds, begun.held_out, question.progress)
     question.progress('looking for structure that is left')
-    doubted = doubt(selection, begun.held_out)
+    doubted = doubt(Seen(selection, begun.held_out))
     return Found(begun.recordings, begun.held_out, begun.recalibrated, selection, *doubted)

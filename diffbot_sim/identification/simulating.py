@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from diffbot_sim.identification.doubt import doubt
+from diffbot_sim.identification.doubt import Seen, doubt
 from diffbot_sim.identification.fitting.calibration import simulation_error, simulation_error_at
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
@@ -78,7 +78,7 @@ def without_worsening(found: Found) -> Found:
     if not worst or ratios[worst] <= WORSE:
         return found
     rest = found.selection.withdrawn(worst, found.held_out, WORSENING)
-    doubted = doubt(rest, found.held_out)
+    doubted = doubt(Seen(rest, found.held_out))
     unexplained = doubted.unexplained or found.unexplained
     return without_worsening(replace(found, selection=doubted.selection, unexplained=unexplained))
 

@@ -8,15 +8,16 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from diffbot_sim.identification.statistics.parallel import each
-from diffbot_sim.identification.statistics.robust import HUBER, scale_of
+from diffbot_sim.identification.statistics.robust import HUBER, huber, scale_of
 from diffbot_sim.records import Array
 
 # Step of finite differences, in coordinates of order one.
 DIFFERENCE = 1e-5
 # A slope so many times as steep as all but a hundredth may be a jump: a wheel just breaks away.
 JUMP, ALL_BUT = 30.0, 0.99
-# A scale that changes by less than this share between two rounds has settled.
-SETTLED = 0.002
+# A scale that changes by less than this share between two rounds has settled. Where errors jump a
+# round may end at no minimum: if the cost falls by less than this there is none lower near.
+SETTLED, LOWER = 0.002, 0.03
 # No odometry tells speeds [m/s] and yaw rates [rad/s] more finely, nor are integrators of others
 # closer: what is smaller is no error.
 FINEST = 1e-4
@@ -94,9 +95,9 @@ def minimise(
     point = np.clip(inside, low + margin, high - margin)
     sigma = scale(known.errors(point))
     for _ in range(rounds):
-        point, converged = _least_squares(known, point, prior, bounds, sigma, evaluations)
+        point, lowest = _least_squares(known, point, prior, bounds, sigma, evaluations)
         last, sigma = sigma, scale(known.errors(point))
-        if converged and np.all(np.abs(sigma / last - 1.0) < SETTLED):
+        if lowest and np.all(np.abs(sigma / last - 1.0) < SETTLED):
             break
     return point, sigma
 
@@ -136,7 +137,7 @@ def _least_squares(
     sigma: Array,
     evaluations: int,
 ) -> tuple[Array, bool]:
-    """Minimise robust whitened errors; return the point, and whether it is a minimum."""
+    """Minimise robust whitened errors; return the point, and whether nothing near is lower."""
 
     def cost(at: Array) -> Array:
         whitened = known.errors(at) / sigma
@@ -146,6 +147,7 @@ def _least_squares(
         whitened = known.derivatives(at) / sigma[:, None]
         return np.vstack([whitened.reshape(-1, len(at)), np.diag(1.0 / prior.deviation)])
 
+    first = huber(cost(start)).sum()
     result = least_squares(
         cost,
         start,
@@ -158,4 +160,5 @@ def _least_squares(
         ftol=1e-5,
         xtol=1e-6,
     )
-    return np.asarray(result.x), bool(result.status > 0)
+    lowest = result.status > 0 or first - huber(result.fun).sum() < LOWER
+    return np.asarray(result.x), bool(lowest)
