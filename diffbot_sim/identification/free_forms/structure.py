@@ -6,6 +6,7 @@ from math import inf, isinf, isnan
 import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, whitened
+from diffbot_sim.identification.fitting.negligible import is_negligible, simulated
 from diffbot_sim.identification.free_forms.bases import again, bases
 from diffbot_sim.identification.free_forms.dependence import (
     Dependence,
@@ -94,6 +95,8 @@ def _beyond_doubt(
     """Return a dependence that is beyond doubt, as it is against the model alone; None if not."""
     if _may_be_chance(dependence, fit, tried) or dependence.p_block > EITHER_LEVEL:
         return None
+    if _is_slight(fit, dependence):
+        return None
     least = _least_worth(fit, dependence, held_out)
     if isinf(least):
         return None
@@ -114,6 +117,16 @@ def _least_worth(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) 
         return 0.0
     # What was sure all along the fitted data may have ended since.
     return FAR_BEYOND if where_fitted else inf
+
+
+def _is_slight(fit: Fit, dependence: Dependence) -> bool:
+    """Say whether it changes the motion by next to nothing; a spot does so nearly everywhere."""
+    if VARIABLES[dependence.basis.variable].order is by_place:
+        return False
+    adapted = fit.space.model(fit.u + dependence.adaptation[: len(fit.u)])
+    pushed = dependence.basis.pushed(fit.stretches, dependence.amounts)
+    change = simulated(adapted, pushed) - simulated(fit.model, fit.stretches)
+    return is_negligible(change, fit.stretches)
 
 
 def _may_be_chance(dependence: Dependence, fit: Fit, tried: int) -> bool:

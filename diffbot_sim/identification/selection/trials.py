@@ -8,6 +8,7 @@ from math import nan
 from scipy import stats
 
 from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.fitting.negligible import is_negligible, simulated
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, complete, reduce
@@ -51,12 +52,13 @@ OUTDONE = 'resembles what acts, but a free-form force explains more'
 INCREDIBLE = 'fits only with values that no robot has'
 BEREFT = 'nothing of it but what it shares with another effect'
 WORSENING = 'simulates held-out data worse, beside what is unexplained'
+SLIGHT = 'changes the motion by less than simulators of one robot differ by'
 HEARD = 'only while the forces hardly change, as where a controller hears more than was recorded'
 UNSEEN = 'not excited by this drive'
 NEEDLESS = 'explained almost as well without it'
 CROWDED = 'no place left beside the effects found before'
 # Where these are said nothing speaks against the effect, or something else was told in its place.
-UNOPPOSED = (SUPPORTED, OUTDONE, WORSENING, HEARD, NEEDLESS, CROWDED)
+UNOPPOSED = (SUPPORTED, OUTDONE, WORSENING, SLIGHT, HEARD, NEEDLESS, CROWDED)
 
 Progress = Callable[[str], None]
 
@@ -189,7 +191,14 @@ def _completed(
         outcome = BEREFT
     elif outcome == SUPPORTED and is_of_feedback(fit, kind.name):
         outcome = HEARD
+    elif outcome == SUPPORTED and _is_slight(screen.fit, fit):
+        outcome = SLIGHT
     return Trial(kind, fit, evidence, outcome, looks)
+
+
+def _is_slight(rest: Fit, fit: Fit) -> bool:
+    without, with_it = (simulated(it.model, it.stretches) for it in (rest, fit))
+    return is_negligible(with_it - without, fit.stretches)
 
 
 def _is_bereft(fit: Fit, kind: type[Effect], explained: float) -> bool:
