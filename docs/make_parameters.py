@@ -48,8 +48,12 @@ EFFECTS = """\
 One that is absent is off. Each lives in a file of its own. They are listed in the order in which
 they act: on the command, on the force of the motors, on its way to the wheels, on the friction of
 each wheel, on the body, on its inertia. The dry friction that some change is F_s and F_k alike; a
-wheel at rest has that of the direction in which it would start. Time counts from the first message
-of a run, be it force or odometry; before the first force none acts.
+wheel at rest has that of the direction in which it would start. Where several change the friction
+of a wheel their factors multiply; none changes F_N, so that a slope leaves friction as it is.
+*Rounded* is a force f that a limit L turns into f / (1 + (|f|/L)^n)^(1/n): n is 128 for
+`voltage_limit`, so that 0.5 % are missing at the limit, and hypot(12, v / (1 cm/s)) for
+`power_limit`. Time counts from the first message of a run, be it force or odometry; before the
+first force none acts.
 """
 
 
