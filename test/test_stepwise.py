@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from fits import SMOOTH, fitted
 
-from diffbot_sim.control.rehearsal import random_forces, rehearse
+from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.selection.candidates import approach, complete
 from diffbot_sim.identification.selection.evidence import compare, likelihood_ratio, rise_without
 from diffbot_sim.identification.selection.screening import Screen
@@ -25,12 +25,12 @@ from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
 from diffbot_sim.physics.effects.voltage_limit import VoltageLimit
 
 
-@pytest.mark.parametrize(('coefficient', 'names'), [(0.013, []), (0.025, ['quadratic_drag'])])
+@pytest.mark.parametrize(('coefficient', 'names'), [(0.05, []), (0.1, ['quadratic_drag'])])
 def test_name_is_told_only_where_the_data_can_tell_it_from_none(
     coefficient: float, names: list[str]
 ) -> None:
-    dragging = Model(effects=(QuadraticDrag(coefficient),))
-    fit, held_out = fitted(rehearse(dragging, random_forces(3, 60.0, -9.0, 11.0), SMOOTH, 3))
+    dragging, noisy = Model(effects=(QuadraticDrag(coefficient),)), Surroundings(0.015, 0.03)
+    fit, held_out = fitted(rehearse(dragging, random_forces(3, 60.0, -9.0, 11.0), noisy, 3))
     (trial,) = try_all(Screen(fit), [QuadraticDrag], held_out, lambda text: None)
     assert trial.accepted
     found = select(fit, [QuadraticDrag], held_out, lambda text: None)

@@ -126,7 +126,7 @@ def _is_slight(fit: Fit, dependence: Dependence) -> bool:
     adapted = fit.space.model(fit.u + dependence.adaptation[: len(fit.u)])
     pushed = dependence.basis.pushed(fit.stretches, dependence.amounts)
     change = simulated(adapted, pushed) - simulated(fit.model, fit.stretches)
-    return is_negligible(change, fit.stretches)
+    return is_negligible(change, fit)
 
 
 def _may_be_chance(dependence: Dependence, fit: Fit, tried: int) -> bool:

@@ -198,7 +198,7 @@ def _completed(
 
 def _is_slight(rest: Fit, fit: Fit) -> bool:
     without, with_it = (simulated(it.model, it.stretches) for it in (rest, fit))
-    return is_negligible(with_it - without, fit.stretches)
+    return is_negligible(with_it - without, fit)
 
 
 def _is_bereft(fit: Fit, kind: type[Effect], explained: float) -> bool:
