@@ -5,7 +5,9 @@ from fits import SMOOTH, fitted, left_by
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
-from diffbot_sim.identification.fitting.negligible import is_negligible, simulated
+from diffbot_sim.identification.fitting.fit import whitened
+from diffbot_sim.identification.fitting.negligible import simulates_alike
+from diffbot_sim.identification.fitting.predictor import NO_GAIN
 from diffbot_sim.identification.selection.trials import SLIGHT
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
@@ -24,11 +26,9 @@ def test_difference_is_negligible_beside_motion_and_noise(
     coefficient: float, slight: bool
 ) -> None:
     fit, _ = fitted(driven_with_drag(0.0))
-    plain, dragged = (
-        simulated(model, fit.stretches)
-        for model in (Model(), Model().with_effect(QuadraticDrag(coefficient)))
-    )
-    assert is_negligible(dragged - plain, fit) == slight
+    dragged = fit.model.with_effect(QuadraticDrag(coefficient))
+    errors = whitened(fit.stretches, dragged, NO_GAIN, fit.sigma)
+    assert simulates_alike(fit, errors) == slight
 
 
 def test_effect_beyond_chance_that_hardly_changes_the_motion_is_not_named() -> None:

@@ -143,13 +143,13 @@ def _settled(found: Found, question: Question) -> Found:
 def _eased(found: Found) -> Seen | None:
     """Look at what was found with friction near rest allowed for; None where that is nothing.
 
-    Where it is nothing beside all names, doubt has not changed until it took some of them.
+    Where it is nothing, neither beside all names nor beside those that stood, doubt is as it was.
     """
-    selections = [found.undoubted]
-    if found.selection is not found.undoubted:
-        selections.append(found.selection)
-    seen = (with_friction_eased(selection, found.held_out) for selection in selections)
-    return next((it for it in seen if it.strict), None)
+    seen = with_friction_eased(found.undoubted, found.held_out)
+    if not seen.strict and found.selection is not found.undoubted:
+        stood = with_friction_eased(found.selection, found.held_out)
+        return seen if stood.strict else None
+    return seen if seen.strict else None
 
 
 def _timed(recordings: Recordings, question: Question) -> Found:

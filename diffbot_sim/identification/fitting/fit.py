@@ -59,6 +59,10 @@ class Fit:
         """Innovations of all stretches over sigma, shape (n, 2)."""
         return whitened(self.stretches, self.model, self.gains, self.sigma)
 
+    def over(self, sigma: Array) -> Array:
+        """Return the same innovations over another scale."""
+        return np.asarray(self.whitened * (self.sigma / sigma))
+
     def counted(self, errors: Sequence[Array]) -> Array:
         """Return what counts of errors on each stretch, (k, 2, q), over sigma, (n, 2, q)."""
         pairs = zip(errors, self.stretches, strict=True)
@@ -72,7 +76,7 @@ class Fit:
 
     def deviance(self, sigma: Array) -> float:
         """Return twice the robust cost at a given scale."""
-        return float(huber(self.whitened * (self.sigma / sigma)).sum())
+        return float(huber(self.over(sigma)).sum())
 
     @cached_property
     def jacobian(self) -> Array:

@@ -1,14 +1,11 @@
 """Differences between models that do not matter: two simulators of one robot differ by as much."""
 
-from collections.abc import Sequence
-
 import numpy as np
 
-from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.fitting.predictor import NO_GAIN, predict
-from diffbot_sim.identification.recordings.stretches import Stretch, motion_of
+from diffbot_sim.identification.fitting.fit import Fit, whitened
+from diffbot_sim.identification.fitting.predictor import NO_GAIN
+from diffbot_sim.identification.recordings.stretches import motion_of
 from diffbot_sim.identification.statistics.norms import rms_of_each
-from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array
 
 # Shares of the motion, and of the scale of the errors. A simulator with soft contacts left 0.17 %
@@ -17,13 +14,16 @@ from diffbot_sim.records import Array
 NEGLIGIBLE, HIDDEN = 0.0025, 0.5
 
 
-def simulated(model: Model, stretches: Sequence[Stretch]) -> Array:
-    """Return v and ω where they count, as the recorded forces and pushes alone drive a model."""
-    runs = [predict(model, stretch, NO_GAIN).twist[stretch.used > 0] for stretch in stretches]
-    return np.concatenate(runs)
+def running_free(fit: Fit, sigma: Array) -> Array:
+    """Return the errors of a fit that nothing corrects, over a scale, shape (n, 2)."""
+    return whitened(fit.stretches, fit.model, NO_GAIN, sigma)
 
 
-def is_negligible(difference: Array, fit: Fit) -> bool:
-    """Say whether simulations (n, 2) differ by nothing beside the motion and errors of a fit."""
-    little = np.minimum(NEGLIGIBLE * motion_of(fit.stretches), HIDDEN * fit.sigma)
-    return bool(np.all(rms_of_each(difference) < little))
+def simulates_alike(fit: Fit, errors: Array) -> bool:
+    """Say whether a fit, running free, differs by next to nothing from another simulation.
+
+    errors: of the other one over the fit's sigma, shape (n, 2).
+    """
+    own = running_free(fit, fit.sigma)
+    little = np.minimum(NEGLIGIBLE * motion_of(fit.stretches) / fit.sigma, HIDDEN)
+    return bool(np.all(rms_of_each(errors - own) < little))

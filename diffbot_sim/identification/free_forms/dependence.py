@@ -137,9 +137,8 @@ def against_the_model(fit: Fit, dependence: Dependence) -> Dependence:
     if gained <= 0.0:
         return dependence
     left = acting(fit, dependence.basis, np.append(at, dependence.amounts), fit.stretches)
-    before = alone.whitened * (alone.sigma / fit.sigma)
     fall = max(dependence.fall - gained, 0.0)
-    return replace(dependence, fall=fall, beyond=fall_of_deviance(before, left))
+    return replace(dependence, fall=fall, beyond=fall_of_deviance(alone.over(fit.sigma), left))
 
 
 def best_against_the_model(fit: Fit, tried: Iterable[Dependence]) -> Dependence:

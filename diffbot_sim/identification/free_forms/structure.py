@@ -6,7 +6,8 @@ from math import inf, isinf, isnan
 import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, whitened
-from diffbot_sim.identification.fitting.negligible import is_negligible, simulated
+from diffbot_sim.identification.fitting.negligible import simulates_alike
+from diffbot_sim.identification.fitting.predictor import NO_GAIN
 from diffbot_sim.identification.free_forms.bases import again, bases
 from diffbot_sim.identification.free_forms.dependence import (
     Dependence,
@@ -110,7 +111,7 @@ def _least_worth(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) 
     where_fitted = not isnan(p_folds) and lasting(dependence.p_block, p_folds)
     # A rough floor is the same again where the robot comes back, so that held-out data confirm
     # nothing: other parts of the floor must, and be as sure as blocks.
-    if VARIABLES[dependence.basis.variable].order is by_place:
+    if _is_of_place(dependence):
         return 0.0 if where_fitted and p_folds <= BLOCK_LEVEL else inf
     held = _held_out_chance(fit, dependence, held_out)
     if lasting(dependence.p_block, elsewhere(held, p_folds)):
@@ -119,14 +120,17 @@ def _least_worth(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) 
     return FAR_BEYOND if where_fitted else inf
 
 
+def _is_of_place(dependence: Dependence) -> bool:
+    return VARIABLES[dependence.basis.variable].order is by_place
+
+
 def _is_slight(fit: Fit, dependence: Dependence) -> bool:
     """Say whether it changes the motion by next to nothing; a spot does so nearly everywhere."""
-    if VARIABLES[dependence.basis.variable].order is by_place:
+    if _is_of_place(dependence):
         return False
-    adapted = fit.space.model(fit.u + dependence.adaptation[: len(fit.u)])
-    pushed = dependence.basis.pushed(fit.stretches, dependence.amounts)
-    change = simulated(adapted, pushed) - simulated(fit.model, fit.stretches)
-    return is_negligible(change, fit)
+    adapted = fit.u + dependence.adaptation[: len(fit.u)]
+    at = np.concatenate([adapted, NO_GAIN, dependence.amounts])
+    return simulates_alike(fit, acting(fit, dependence.basis, at, fit.stretches))
 
 
 def _may_be_chance(dependence: Dependence, fit: Fit, tried: int) -> bool:

@@ -84,7 +84,7 @@ def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
 
 def likelihood_ratio(small: Fit, large: Fit) -> float:
     """Return by how much the deviance falls from one fit to another, no less than nothing."""
-    return fall_of_deviance(small.whitened * (small.sigma / large.sigma), large.whitened)
+    return fall_of_deviance(small.over(large.sigma), large.whitened)
 
 
 def _adds_law_of_time(small: Fit, large: Fit) -> bool:
@@ -139,7 +139,7 @@ def _falls_beyond(first: Fit, second: Fit) -> Array:
     all the same.
     """
     sigma = np.minimum(first.sigma, second.sigma)
-    before, after = (fit.whitened * (fit.sigma / sigma) for fit in (first, second))
+    before, after = first.over(sigma), second.over(sigma)
     weight, beyond = huber(before).sum(axis=0), falls_beyond_past(before, after)
     as_they_are = weight - huber(after).sum(axis=0)
     counted = np.sum(before[1:] * before[:-1], axis=0) < COUNTED * np.sum(before**2, axis=0)

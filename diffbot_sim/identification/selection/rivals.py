@@ -49,6 +49,6 @@ def is_told_apart(rival: Fit, best: Fit) -> bool:
     if not VERY_STRONG <= behind < CONTESTED:
         return behind >= CONTESTED
     sigma = np.minimum(rival.sigma, best.sigma)
-    worse, less = (huber(fit.whitened * (fit.sigma / sigma)).sum(axis=1) for fit in (rival, best))
+    worse, less = (huber(fit.over(sigma)).sum(axis=1) for fit in (rival, best))
     price = best.price(len(rival.u) - len(best.u)) / len(less)
     return block_gain(worse - less + price)[1] <= BLOCK_LEVEL

@@ -8,7 +8,7 @@ from math import nan
 from scipy import stats
 
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.fitting.negligible import is_negligible, simulated
+from diffbot_sim.identification.fitting.negligible import running_free, simulates_alike
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, complete, reduce
@@ -191,14 +191,9 @@ def _completed(
         outcome = BEREFT
     elif outcome == SUPPORTED and is_of_feedback(fit, kind.name):
         outcome = HEARD
-    elif outcome == SUPPORTED and _is_slight(screen.fit, fit):
+    elif outcome == SUPPORTED and simulates_alike(fit, running_free(screen.fit, fit.sigma)):
         outcome = SLIGHT
     return Trial(kind, fit, evidence, outcome, looks)
-
-
-def _is_slight(rest: Fit, fit: Fit) -> bool:
-    without, with_it = (simulated(it.model, it.stretches) for it in (rest, fit))
-    return is_negligible(with_it - without, fit)
 
 
 def _is_bereft(fit: Fit, kind: type[Effect], explained: float) -> bool:
