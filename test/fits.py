@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from diffbot_sim.control.rehearsal import Surroundings, rehearse
 from diffbot_sim.identification.fitting.coordinates import Space
-from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS, UNIT, Fit, fit_prediction
 from diffbot_sim.identification.free_forms.dependence import Dependence
 from diffbot_sim.identification.free_forms.structure import find_dependences
 from diffbot_sim.identification.recordings.stretches import Stretch, split
@@ -20,6 +20,14 @@ def fitted(run: Run, declared: Model | None = None) -> tuple[Fit, tuple[Stretch,
     learned, held_out = split([run])
     space = Space(declared or Model(), ())
     return fit_prediction(space, learned, space.prior(), FIRST_GAINS), held_out
+
+
+def leaving(errors: Array) -> Fit:
+    """Return a fit of the plain model that leaves these errors over a scale of 1, shape (n, 2)."""
+    space = Space(Model(), ())
+    fit = Fit(space, (), space.prior(), FIRST_GAINS, UNIT)
+    fit.__dict__['whitened'] = errors  # where cached_property keeps what it was asked for
+    return fit
 
 
 def left_by(run: Run, declared: Model | None = None) -> list[Dependence]:

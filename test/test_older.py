@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from fits import leaving
 
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, UNIT, Fit
@@ -15,7 +16,6 @@ from diffbot_sim.identification.statistics.guards import VERY_STRONG
 from diffbot_sim.identification.statistics.memory import falls_beyond_past
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
-from diffbot_sim.records import Array
 
 
 def fit_of(delay: float = 0.0) -> Fit:
@@ -47,11 +47,6 @@ def test_beside_a_force_without_a_name_they_may_explain_a_little_less(worth, tak
 @pytest.mark.parametrize(('delay', 'taken'), [(0.0098, True), (0.013, False)])
 def test_beside_it_a_robot_that_is_as_late_as_means_are_is_no_evidence(delay, taken):
     assert means_are_taken(-60.0, unexplained=800.0, delay=delay) == taken
-
-
-def leaving(errors: Array) -> Any:
-    """Return what is compared of a fit that leaves these errors."""
-    return SimpleNamespace(whitened=errors, sigma=np.ones(2), u=np.zeros(1))
 
 
 def test_sums_of_counts_that_a_fit_left_to_chance_decide_nothing() -> None:

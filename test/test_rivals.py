@@ -1,11 +1,10 @@
 """Structures that are told apart, and those that are not."""
 
 import numpy as np
+from fits import leaving
 
-from diffbot_sim.identification.fitting.coordinates import Space
-from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit
+from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.selection.rivals import is_told_apart
-from diffbot_sim.physics import Model
 from diffbot_sim.records import Array
 
 SAMPLES = 2000
@@ -14,10 +13,7 @@ NOISE = np.random.default_rng(1).normal(size=(SAMPLES, 2))
 
 def erring(more: Array) -> Fit:
     """Return a fit of which each squared error is larger by so much, shape (n,)."""
-    space = Space(Model(), ())
-    fit = Fit(space, (), space.prior(), FIRST_GAINS, np.ones(2))
-    fit.__dict__['whitened'] = np.sqrt(NOISE**2 + 0.5 * more[:, None])
-    return fit
+    return leaving(np.sqrt(NOISE**2 + 0.5 * more[:, None]))
 
 
 def spread(total: float) -> Array:
