@@ -16,6 +16,7 @@ from rich.console import Console
 
 from diffbot_sim.identification.result import Bias, ErrorNorm, Estimate, Identification, Timing
 from diffbot_sim.physics.effects import laws, library
+from diffbot_sim.physics.effects.effective_track import EffectiveTrack
 from diffbot_sim.physics.model import Model
 from diffbot_sim.report import figures, print_summary, sentences, write_report
 from diffbot_sim.report.dependence import binned
@@ -281,6 +282,13 @@ def test_forces_in_another_unit_are_suspected(factors: tuple[float, float], told
     scaled = Model(replace(robot, mass=mass, inertia=inertia))
     result = replace(by_hand.nothing_missing(), identified=scaled)
     assert ('as where forces are told in another unit' in by_hand.page(result)) == told
+
+
+@pytest.mark.parametrize(('widening', 'told'), [(1.02, True), (-0.49, True), (0.6, False)])
+def test_half_a_wheel_separation_is_suspected(widening: float, told: bool) -> None:
+    wider = Model().with_effect(EffectiveTrack(widening))
+    result = replace(by_hand.nothing_missing(), identified=wider)
+    assert ('is wheel_separation the whole distance' in by_hand.page(result)) == told
 
 
 def test_declared_effect_that_is_not_there_is_told_at_once() -> None:

@@ -11,7 +11,7 @@ from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filtering import filter_behind, unfiltered
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, fit_prediction, fit_simulation
 from diffbot_sim.identification.fitting.shaking import shaken
-from diffbot_sim.identification.fitting.units import check_units
+from diffbot_sim.identification.fitting.units import within_reach
 from diffbot_sim.identification.found import Begun, Found
 from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
 from diffbot_sim.identification.later import sets_in_later
@@ -71,7 +71,7 @@ def search(recordings: Recordings, question: Question) -> Found:
     """
     fitted, _ = _divided(recordings)
     # What is declared stays the same, however the runs are taken or divided.
-    check_units(Space(question.declared, ()), fitted)
+    question = replace(question, declared=within_reach(question.declared, fitted))
     found = _answered(recordings, question)
     noise = odometry_noise(question.declared.half_separation)
     if not is_integrators(found, noise):

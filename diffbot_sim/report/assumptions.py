@@ -6,7 +6,8 @@ from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.identification.statistics import guards
 from diffbot_sim.report.numerals import significant
-from diffbot_sim.report.sentences import of_recordings, split
+from diffbot_sim.report.remarks import remarks
+from diffbot_sim.report.sentences import split
 
 
 def assumptions(result: Identification) -> list[str]:
@@ -33,7 +34,7 @@ def _recording(result: Identification) -> list[str]:
         'held until the next one.',
         'Forces and odometry are stamped by one clock, when they were measured; time counts from '
         'the start of each run.',
-        *of_recordings(result),
+        *remarks(result),
         f'Odometry faster than {stretches.HIGHEST_RATE:g} Hz is averaged down.{at}',
         f'Left out as start-up: the first {stretches.SETTLING:g} s of what was fitted.',
     ]

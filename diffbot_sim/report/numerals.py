@@ -48,6 +48,16 @@ def unit_text(unit: str) -> str:
     return '' if unit in ('', '-') else f' {unit}'
 
 
+def speed_text(v: float) -> str:
+    """Write a speed [m/s] in mm/s."""
+    return f'{significant(1e3 * v)} mm/s'
+
+
+def turn_rate_text(omega: float) -> str:
+    """Write a turn rate [rad/s] in mrad/s."""
+    return f'{significant(1e3 * omega)} mrad/s'
+
+
 def _why_bare(width: float) -> str:
     return '' if width == 0.0 else ' (no interval)'
 

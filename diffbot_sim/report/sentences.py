@@ -1,22 +1,25 @@
 """The words of the report: what was found, how sure it is, and in which units."""
 
 from collections.abc import Sequence
-from math import inf, isfinite, log, sqrt
+from math import inf, isfinite, log
 
 from diffbot_sim.identification.result import (
     EFFECTS_FOUND,
     LAW,
     NOTHING_MISSING,
-    ErrorNorm,
     Errors,
     FoundEffect,
     Identification,
     RunCheck,
     Structure,
-    Timing,
 )
 from diffbot_sim.physics.effects import Effect
-from diffbot_sim.report.numerals import estimate_text, significant
+from diffbot_sim.report.numerals import (
+    estimate_text,
+    significant,
+    speed_text,
+    turn_rate_text,
+)
 
 SPLITS = {
     'validate': 'on whole runs that were not fitted',
@@ -27,52 +30,9 @@ SPLITS = {
 NEAR = 1.5
 PUSHED = '; what lies between follows nothing that was recorded, as pushes of an uneven floor do'
 
-TIMINGS = {
-    'pose': 'the twists are means over what the poses tell, {} late; that was used instead.',
-    'smoothed': 'the twists are no sharper than the changes of the poses, which were used.',
-    'mean': 'the twists were taken as {} older than their stamps, as means over the past are; if '
-    'they are not, it is the robot that is so much late.',
-    'speed': 'the speeds alone were taken as {} older than their stamps, as those of encoders '
-    'beside a gyro are; if they are not, it is the robot that is so much late.',
-    'filter': 'the twists were taken as they were before a low-pass filter with a time constant '
-    'of {}: it explains them and their noise better than a robot that is late.',
-    'undecided': 'the twists may be {} older than their stamps, as means over the past are; this '
-    'recording does not tell. Then it is not the robot that is so much late. Record faster.',
-    'force': 'the robot moves before the forces that are told to drive it: they were taken as '
-    '{} older than their stamps.',
-}
-
 DISAGREES = 'disagrees with the other runs'
 SET_ASIDE = (
     'is of another robot or another condition than the other runs, which agree, and was set aside'
-)
-
-BIAS = (
-    'the odometry turns by {} while the robot stands, as a gyro with a bias does; that was taken '
-    'off its turn rates.'
-)
-
-STOOD = (
-    'its wheels were taken to begin {} rad (right) and {} rad (left) further in their turn than '
-    'those of the first run, as the ripple tells.'
-)
-
-# Mass and inertia that are so many times what was declared, alike within a factor.
-MANY, ALIKE = 3.0, 1.5
-UNITS = (
-    'Mass and inertia are {} and {} times what was declared, as where forces are told in another '
-    'unit (torques, say). All that is found is in that unit.'
-)
-
-NEAR_REST = (
-    'Friction near rest is of another form than the declared law, as where wheels creep or yield '
-    'before they slide. That was allowed for: without it, something would seem unexplained.'
-)
-
-NOISELESS = (
-    'The odometry is finer than any robot tells it, as that of a simulator or a laboratory is, '
-    'and what is left of it may be how it was made: white noise of {} and {} was added, as a good '
-    'odometry has.'
 )
 
 
@@ -132,8 +92,8 @@ def _sufficient(result: Identification) -> str:
     without = ' without that' if result.contradicted else ''
     return (
         f'recalibrated{without}, the declared model predicts held-out speed to '
-        f'{_speed(left.v_rmse)} and turn rate to {_rate(left.omega_rmse)}; '
-        f'noise floor {_speed(floor.v_rmse)} and {_rate(floor.omega_rmse)}{rest}'
+        f'{speed_text(left.v_rmse)} and turn rate to {turn_rate_text(left.omega_rmse)}; '
+        f'noise floor {speed_text(floor.v_rmse)} and {turn_rate_text(floor.omega_rmse)}{rest}'
     )
 
 
@@ -153,7 +113,7 @@ def _fall(errors: Errors) -> str:
         turning = _change(before.omega_rmse, after.omega_rmse) > _change(
             before.v_rmse, after.v_rmse
         )
-    what, said = ('turn-rate', _rate) if turning else ('speed', _speed)
+    what, said = ('turn-rate', turn_rate_text) if turning else ('speed', speed_text)
     key = 'omega_rmse' if turning else 'v_rmse'
     old, new, least = (getattr(norm, key) for norm in (before, after, floor))
     if said(old) == said(new):
@@ -217,40 +177,6 @@ def disagreements(runs: Sequence[RunCheck]) -> list[str]:
     return [f'{run.name} {SET_ASIDE if run.set_aside else DISAGREES}: {why(run)}.' for run in odd]
 
 
-def of_recordings(result: Identification) -> list[str]:
-    """Say what was not taken as it was recorded or declared, and why."""
-    biases = [f'{it.run}: {BIAS.format(_rate(it.rate))}' for it in result.biases]
-    late = [f'{it.run}: {TIMINGS[it.taken].format(_milliseconds(it))}' for it in result.timings]
-    stood = [
-        f'{it.name}: {STOOD.format(*map(significant, it.wheel_angles))}'
-        for it in result.runs
-        if any(it.wheel_angles)
-    ]
-    units = _units(result)
-    near_rest = [NEAR_REST] if result.near_rest > 0.0 else []
-    return [*biases, *late, *stood, *units, *near_rest, *_noise(result.added_noise)]
-
-
-def _units(result: Identification) -> list[str]:
-    """Say where mass and inertia are both many times what was declared: so much are forces."""
-    declared, now = result.declared.robot, result.identified.robot
-    ratios = (now.mass / declared.mass, now.inertia / declared.inertia)
-    low, high = min(ratios), max(ratios)
-    if high > ALIKE * low or 1.0 / MANY < sqrt(low * high) < MANY:
-        return []
-    return [UNITS.format(*map(significant, ratios))]
-
-
-def _noise(added: ErrorNorm | None) -> list[str]:
-    if added is None:
-        return []
-    return [NOISELESS.format(_speed(added.v_rmse), _rate(added.omega_rmse))]
-
-
-def _milliseconds(it: Timing) -> str:
-    return f'{1e3 * it.lateness:.3g} ms'
-
-
 def why(run: RunCheck) -> str:
     """Say in which parameters a run differs, the surest three; empty where it agrees."""
     if run.own_effects:
@@ -268,14 +194,6 @@ def p_text(p: float) -> str:
     if not isfinite(p):
         return '–'
     return '< 1e-12' if p < 1e-12 else f'{p:.2g}'
-
-
-def _speed(v: float) -> str:
-    return f'{significant(1e3 * v)} mm/s'
-
-
-def _rate(omega: float) -> str:
-    return f'{significant(1e3 * omega)} mrad/s'
 
 
 def _listed(words: list[str] | tuple[str, ...], last: str = 'and') -> str:

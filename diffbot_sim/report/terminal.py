@@ -9,6 +9,7 @@ from diffbot_sim.identification.result import Identification
 from diffbot_sim.report import sentences
 from diffbot_sim.report.errors import LABELS, error_rows, horizon_rows, models_shown
 from diffbot_sim.report.numerals import significant
+from diffbot_sim.report.remarks import remarks
 from diffbot_sim.report.rows import candidate_row, effect_row
 
 TOP = 5
@@ -23,7 +24,7 @@ def print_summary(result: Identification, console: Console | None = None) -> Non
     for told in (
         sentences.of_declared(result),
         sentences.disagreements(result.runs),
-        sentences.of_recordings(result),
+        remarks(result),
     ):
         for sentence in told:
             console.print(Text(sentence, style='yellow'), '')
