@@ -5,8 +5,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import numpy as np
 
 from diffbot_sim.bags.clock import Leap
+from diffbot_sim.bags.pauses import is_within, pauses
 from diffbot_sim.bags.poses import is_filled
-from diffbot_sim.bags.series import ABSURD, NANOSECONDS, Ordered, Series, Stamps, silence
+from diffbot_sim.bags.series import ABSURD, NANOSECONDS, Ordered, Series, Stamps, silences
 from diffbot_sim.records import Run
 from diffbot_sim.standing import turning, unfilled
 
@@ -20,13 +21,14 @@ def notes_on(usable: Mapping[str, Ordered], run: Run, start: int) -> Iterator[st
 
     usable: by its role, what each topic held; start: the moment of run time 0 [ns].
     """
-    odom = usable['odom']
+    odom, paused = usable['odom'], pauses(usable)
     for role, item in usable.items():
         yield from _left_out(item)
         if role == 'odom':
-            yield from _told(item, _silences(item), start, 'what happened there is unknown')
+            yield from _told(item, silences(item), start, 'what happened there is unknown')
             continue
-        held = [gap for gap in _silences(item) if _goes_on(odom, gap)]
+        holes = [gap for gap in silences(item) if not is_within(gap, paused)]
+        held = [gap for gap in holes if _goes_on(odom, gap)]
         yield from _told(item, held, start, 'the last force is taken to be held')
     if run.odometry.pose is None and is_filled(odom):
         yield 'the poses never turn though the twists do; used the twists alone'
@@ -63,12 +65,6 @@ def _left_out(item: Ordered) -> Iterator[str]:
             f'{item.repeated} of {many} messages of {item.topic} bear the stamp of another; '
             'used the last of each'
         )
-
-
-def _silences(item: Ordered) -> list[Stamps]:
-    """Return the stamps around each time for which a topic is silent far longer than usual."""
-    holes = np.flatnonzero(np.diff(item.stamp) > silence(item))
-    return [item.stamp[i : i + 2] for i in holes]
 
 
 def _goes_on(item: Ordered, gap: Stamps) -> bool:

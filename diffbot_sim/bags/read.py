@@ -9,6 +9,7 @@ import numpy as np
 from diffbot_sim.bags.clock import leaps, unset
 from diffbot_sim.bags.known import apart, known
 from diffbot_sim.bags.notes import notes_on, notes_on_clock
+from diffbot_sim.bags.pauses import pauses
 from diffbot_sim.bags.poses import pose_of, without_broken
 from diffbot_sim.bags.series import NANOSECONDS, Ordered, Series, Stamps, held, ordered
 from diffbot_sim.bags.storage import naming, read_series
@@ -24,12 +25,13 @@ class RecordedRun:
     """A run, when it began, and what was noticed while reading it.
 
     start_ns: the moment of run time 0 on the recording's clock [ns].
-    notes: one line each, for people.
+    notes: one line each, for people; pauses: when nothing was heard, from and to [s].
     """
 
     run: Run
     start_ns: int
     notes: tuple[str, ...] = ()
+    pauses: tuple[tuple[float, float], ...] = ()
 
     @property
     def stamps(self) -> Stamps:
@@ -67,7 +69,9 @@ def _recorded(name: str, series: Mapping[str, Series]) -> RecordedRun:
     force = np.column_stack([held(right, stamps), held(left, stamps)])
     run = Run(name, Commands(_seconds(stamps, start), force), _odometry(odom, start))
     notes += (*notes_on(usable, run, start), *bounds)
-    return RecordedRun(run, start, tuple(f'{name}: {note}' for note in notes))
+    spans = (map(float, _seconds(gap, start)) for gap in pauses(usable))
+    paused = tuple((begin, end) for begin, end in spans)
+    return RecordedRun(run, start, tuple(f'{name}: {note}' for note in notes), paused)
 
 
 def _usable(series: Mapping[str, Series]) -> tuple[dict[str, Ordered], bool]:

@@ -93,6 +93,12 @@ def silence(series: Ordered) -> float:
     return max(LONGEST_SILENCE * NANOSECONDS, USUAL_SILENCES * usual)
 
 
+def silences(series: Ordered) -> list[Stamps]:
+    """Return the stamps around each time for which a topic is silent far longer than usual."""
+    holes = np.flatnonzero(np.diff(series.stamp) > silence(series))
+    return [series.stamp[i : i + 2] for i in holes]
+
+
 def held(series: Ordered, stamps: Stamps) -> Array:
     """Return the first column at other stamps, each value held until the next, 0 before all."""
     index = np.searchsorted(series.stamp, stamps, side='right') - 1

@@ -13,6 +13,7 @@ from diffbot_sim.commands._residual import residual_series
 from diffbot_sim.config import left_out, load_model, save_model
 from diffbot_sim.errors import DiffbotError
 from diffbot_sim.identification import identify
+from diffbot_sim.identification.recordings.parts import between
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.parameters import specs
 from diffbot_sim.physics.model import Model
@@ -60,12 +61,12 @@ def run(arguments: Namespace) -> None:
     declared = _declared(arguments.params, arguments.out)
     read = read_bags(bags, arguments)
     _check_copies(bags, read)
-    recorded = distinct(read)
-    runs = [item.run for item in recorded]
-    learned = len(arguments.bags)
-    result = identify(runs[:learned], declared, runs[learned:], progress=_tell)
+    recorded, learned = distinct(read), len(arguments.bags)
+    given, others = in_parts(recorded[:learned]), in_parts(recorded[learned:])
+    runs, validate = ([item.run for item in items] for items in (given, others))
+    result = identify(runs, declared, validate, progress=_tell)
     origin = origin_of(arguments.bags, arguments.validate, arguments.params)
-    save(result, origin, arguments.out, recorded)
+    save(result, origin, arguments.out, [*given, *others])
     print_summary(result)
     print(f'report: {arguments.out / "report.html"}')
 
@@ -117,6 +118,18 @@ def distinct(recorded: Sequence[RecordedRun]) -> list[RecordedRun]:
             name = next(free for free in numbered if free not in taken)
             taken.add(name)
         found.append(replace(item, run=replace(item.run, name=name)))
+    return found
+
+
+def in_parts(recorded: Sequence[RecordedRun]) -> list[RecordedRun]:
+    """Return runs that were not recorded all along as one for each part, and tell so."""
+    found = []
+    for item in recorded:
+        parts = between(item.run, item.pauses)
+        found += [replace(item, run=part) for part in parts]
+        if parts != (item.run,):
+            names = ', '.join(part.name for part in parts)
+            _tell(f'note: {item.run.name}: what lies between its holes is taken as: {names}')
     return found
 
 
