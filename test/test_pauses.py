@@ -1,13 +1,16 @@
 """Recordings that pause: what lies between the holes is known, how it goes on is not."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from drives import ODOM, START, drive, messages, stamped
 
-from diffbot_sim.bags import read_run
+from diffbot_sim.__main__ import main
+from diffbot_sim.bags import read_run, write_run
 from diffbot_sim.bags.folder import Message, write_bag
+from diffbot_sim.config import save_model
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.recordings.parts import between
@@ -52,7 +55,22 @@ def test_part_that_is_too_short_is_left_out():
 
 def test_run_of_short_parts_alone_stays_whole():
     often = [(float(since), since + 0.5) for since in range(2, 60, 2)]
-    assert between(WHOLE, often) == (WHOLE,)
+    (alone,) = between(WHOLE, often)
+    assert alone is WHOLE
+
+
+def test_run_without_a_pause_stays_as_it_is():
+    (alone,) = between(WHOLE, ())
+    assert alone is WHOLE
+
+
+def test_parts_are_told_and_identified_together(tmp_path, capsys):
+    write_run(tmp_path / 'drive', paused(WHOLE), START)
+    save_model(Model(), tmp_path / 'robot.yaml')
+    main(f'identify {tmp_path}/drive --params {tmp_path}/robot.yaml --out {tmp_path}/out'.split())
+    assert 'taken as: drive from 0 s on, drive from 16 s on' in capsys.readouterr().err
+    report = json.loads((tmp_path / 'out' / 'report.json').read_text())
+    assert report['verdict'] == 'nothing_missing'
 
 
 def test_robot_is_the_same_after_a_pause_as_before():

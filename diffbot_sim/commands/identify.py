@@ -127,7 +127,7 @@ def in_parts(recorded: Sequence[RecordedRun]) -> list[RecordedRun]:
     for item in recorded:
         parts = between(item.run, item.pauses)
         found += [replace(item, run=part) for part in parts]
-        if parts != (item.run,):
+        if parts[0] is not item.run:
             names = ', '.join(part.name for part in parts)
             _tell(f'note: {item.run.name}: what lies between its holes is taken as: {names}')
     return found

@@ -15,6 +15,8 @@ def between(run: Run, pauses: Sequence[tuple[float, float]]) -> tuple[Run, ...]:
     Their time goes on counting from the start of the whole. What is too short to be fitted is
     left out; a run none of whose parts is longer stays whole.
     """
+    if not pauses:
+        return (run,)
     begins = [-inf, *(until for _, until in pauses)]
     ends = [*(since for since, _ in pauses), inf]
     parts = [_part(run, begin, end) for begin, end in zip(begins, ends, strict=True)]
@@ -27,8 +29,7 @@ def _part(run: Run, begin: float, end: float) -> Run:
     kept = (seen.time >= begin) & (seen.time <= end)
     pose = None if seen.pose is None else seen.pose[kept]
     part = Odometry(seen.time[kept], seen.twist[kept], pose, seen.means)
-    name = run.name if kept.all() else f'{run.name} from {max(begin, 0.0):.0f} s on'
-    return replace(run, name=name, odometry=part)
+    return replace(run, name=f'{run.name} from {max(begin, 0.0):.0f} s on', odometry=part)
 
 
 def _is_enough(part: Run) -> bool:

@@ -23,7 +23,10 @@ def offset_balance(at: Motion, balance: Balance, offset: float) -> Balance:
 
 @dataclass(frozen=True)
 class ComOffset(Effect):
-    """m (dv/dt - d ω²) = F and (J + m d²) dω/dt + m d ω v = τ, with J about the centre."""
+    """m (dv/dt - d ω²) = F and (J + m d²) dω/dt + m d ω v = τ, with J about the centre.
+
+    The weight on the wheels, and with it their friction, stays.
+    """
 
     name = 'com_offset'
     meaning = 'centre of gravity ahead of (+) or behind (-) the wheel axle'

@@ -55,7 +55,8 @@ def largest_power(meaning: str) -> float:
 class PowerLimit(Effect):
     """Force on each wheel of at most P/|v| while it drives, rounded there.
 
-    While it brakes, of at most P_b/|v|: some drives limit the power that they give alone.
+    While it brakes, of at most P_b/|v|: some drives limit the power that they give alone. Each
+    wheel has its own, and it is mechanical: what heats the motors does not count.
     """
 
     name = 'power_limit'

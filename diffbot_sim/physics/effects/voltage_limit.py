@@ -44,7 +44,8 @@ class VoltageLimit(Effect):
     """Force on each wheel of at most stall·(1 - |v|/no_load) while it drives, rounded there.
 
     While it brakes, of at most stall·(1 + braking·|v|/no_load): 1 is a motor on its supply alone,
-    0 one whose current is limited, too, -1 one that brakes as it drives.
+    0 one whose current is limited, too, -1 one that brakes as it drives. Beyond no_load nothing
+    drives.
     """
 
     name = 'voltage_limit'

@@ -39,7 +39,7 @@ def amplitude(meaning: str) -> float:
 class WheelRipple(Effect):
     """Force c·cos(nθ) + s·sin(nθ) on each wheel, with its own angle θ.
 
-    θ is 0 at the start of a run, in identification of the first one.
+    θ is 0 at the start of a run, in identification of the first one. Both wheels have one n.
 
     It derives from a potential, so a full period does no work. While c = s = 0, n is without
     meaning.
