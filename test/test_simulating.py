@@ -4,44 +4,54 @@ from dataclasses import replace
 from functools import cache
 
 import identification_by_hand as by_hand
+import numpy as np
 from fits import SMOOTH, fitted
 
 from diffbot_sim.control.rehearsal import random_forces, rehearse
-from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, fit_prediction
 from diffbot_sim.identification.found import Found
+from diffbot_sim.identification.recordings.free_running import free_running_error
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.selection.evidence import Evidence
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import SUPPORTED, WORSENING, Trial
-from diffbot_sim.identification.simulating import without_worsening
+from diffbot_sim.identification.simulating import WORSE, without_worsening
 from diffbot_sim.physics import Model
+from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.effects.slope import Slope
+from diffbot_sim.physics.effects.wheel_ripple import WheelRipple
 from diffbot_sim.records import Run
 
 SURE = Evidence(90.0, 0.0, 0.0, 0.1, 0.0, 0.0)
 
 
-@cache
-def driven(grade: float) -> Run:
-    """Return a drive on a floor that rises along x by so much."""
-    hidden = Model(effects=(Slope(grade_x=grade),))
-    return rehearse(hidden, random_forces(1, 40.0, -9.0, 11.0), SMOOTH, 1)
+RIPPLE = WheelRipple(order=6.0, right_cos=2.0, left_cos=2.0)
 
 
 @cache
+def driven(*hidden: Effect) -> Run:
+    """Return a drive of a robot that has these effects."""
+    return rehearse(Model(effects=hidden), random_forces(1, 40.0, -9.0, 11.0), SMOOTH, 1)
+
+
+@cache
+def held_against(named: Effect, *acting: Effect) -> Found:
+    """Return an effect found where it acts, beside held-out data in which these act."""
+    plain, _ = fitted(driven(named))
+    space = Space(Model(), (type(named),))
+    start = np.concatenate([plain.u, point_of(type(named), named.values)])
+    fit = fit_prediction(space, plain.stretches, start, FIRST_GAINS)
+    trial, name = Trial(type(named), fit, SURE, SUPPORTED), named.name
+    selection = Selection(plain, fit, (trial,), {name: plain}, {name: SURE}, {name: ()})
+    _, held_out = fitted(driven(*acting))
+    recordings, left = Recordings((driven(named),), ()), by_hand.unexplained().unexplained
+    return Found(recordings, held_out, plain, selection, selection, left)
+
+
 def slope_held_against(grade: float) -> Found:
     """Return a slope found on a floor that rises, and held out a floor that rises by so much."""
-    plain, _ = fitted(driven(0.02))
-    space = Space(Model(), (Slope,))
-    named = fit_prediction(space, plain.stretches, space.prior(), FIRST_GAINS)
-    trial = Trial(Slope, named, SURE, SUPPORTED)
-    selection = Selection(plain, named, (trial,), {'slope': plain}, {'slope': SURE}, {'slope': ()})
-    _, held_out = fitted(driven(grade))
-    recordings = Recordings((driven(0.02),), ())
-    return Found(
-        recordings, held_out, plain, selection, selection, by_hand.unexplained().unexplained
-    )
+    return held_against(Slope(grade_x=0.02), Slope(grade_x=grade))
 
 
 def test_name_that_makes_the_simulation_worse_is_withdrawn() -> None:
@@ -53,6 +63,14 @@ def test_name_that_makes_the_simulation_worse_is_withdrawn() -> None:
 
 def test_name_that_makes_the_simulation_better_stays() -> None:
     found = slope_held_against(0.02)
+    assert without_worsening(found) is found
+
+
+def test_ripple_that_gets_out_of_step_stays() -> None:
+    found = held_against(RIPPLE, RIPPLE, Slope(grade_x=0.01))
+    fits = found.selection.final, found.selection.base
+    named, without = (free_running_error(fit.model, found.held_out) for fit in fits)
+    assert np.max(named / without) > WORSE
     assert without_worsening(found) is found
 
 
