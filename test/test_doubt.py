@@ -4,9 +4,12 @@ from dataclasses import replace
 from functools import cache
 from math import nan
 
+import numpy as np
 import pytest
+from fits import acted_otherwise
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
+from diffbot_sim.identification import identify
 from diffbot_sim.identification.doubt import Seen, doubt
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
@@ -111,3 +114,11 @@ def test_what_no_other_data_show_is_passing_however_sure_it_seems() -> None:
 def test_where_blocks_cannot_tell_other_data_must_be_as_sure_as_both_would_be() -> None:
     assert lasting(nan, 1e-3)
     assert not lasting(nan, 0.01)
+
+
+def test_limit_with_a_soft_corner_is_named_beside_what_its_corner_leaves() -> None:
+    commands, limit = random_forces(3, 60.0, -9.0, 11.0), 6.0
+    softly = commands.force / (1.0 + np.abs(commands.force / limit) ** 10) ** 0.1
+    result = identify([acted_otherwise(commands, softly)], Model())
+    assert [effect.name for effect in result.effects] == ['actuator_saturation']
+    assert 'wheel' in result.unexplained.description

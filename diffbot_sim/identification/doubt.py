@@ -35,7 +35,8 @@ from diffbot_sim.records import Array
 # An effect that takes this share of its worth from a free form stands or falls with it.
 TAKEN_SHARE = 0.5
 # Shares of what an effect explains. A law of the right form leaves less than the first to a free
-# form that is about the same: from which it takes more than the second.
+# form that is about the same: from which it takes more than the second, and which explains more
+# by itself.
 LEFT_SHARE, SAME_SHARE = 0.1, 0.15
 # No effect lowered the BIC by more on any of 200 clean robots: a name that keeps more beside what
 # is left is no chance.
@@ -220,8 +221,9 @@ def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
 
     rest: the fit that lacks the effect, final: the one that has it; left: what is beyond doubt in
     it. A law of the right form leaves little to a free form that is about the same. What is about
-    something else says nothing against it, as long as the effect explains enough beside it: the
-    declared friction may be of another form than the robot's.
+    something else, or explains less by itself, says nothing against it, as long as the effect
+    explains enough beside it: the declared friction may be of another form than the robot's, and a
+    limit have a soft corner.
     """
     worth = rest.deviance(final.sigma) - final.deviance(final.sigma)
     if left.fall < LEFT_SHARE * worth:
@@ -234,4 +236,5 @@ def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
     shared = abs(taken) if unnamed > worth else max(taken, 0.0)
     much = worth - shared - price > BEYOND_CHANCE
     worthier = WORTHIER * (worth - price) > unnamed
-    return None if taken < SAME_SHARE * worth and (much or worthier) else whole
+    same = taken >= SAME_SHARE * worth and whole.fall > worth
+    return None if not same and (much or worthier) else whole
