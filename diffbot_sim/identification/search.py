@@ -66,8 +66,8 @@ def search(recordings: Recordings, question: Question) -> Found:
     Asks, too, whether twists or forces are stamped late, and what begins where runs are held out.
     What is left of recordings without noise may be the integrator of a simulator, and hide what
     is missing: then they are searched again as a good odometry would have told them.
-    Raises DataError where the runs are too short or do not move, or the declared mass or inertia
-    is in another unit.
+    Raises DataError where the runs are too short or do not move, or a number of the declared
+    robot is in another unit.
     """
     fitted, _ = _divided(recordings)
     # What is declared stays the same, however the runs are taken or divided.
