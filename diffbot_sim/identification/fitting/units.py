@@ -61,7 +61,10 @@ def _mistake(
         return float(rms_of_each(simulation_errors(space, stretches, space.prior()))[axis])
 
     # Around its mean: that is all that a body leaves which is too heavy to change its speed.
-    found, least = None, min(float(motion_of(stretches)[axis]), error(declared))
+    motion, as_declared = float(motion_of(stretches)[axis]), error(declared)
+    if as_declared < LEFT * motion:
+        return None
+    found, least = None, min(motion, as_declared)
     for name in names:
         errors = [(error(it.model), it) for it in _mistakes(declared, name)]
         left, nearest = min(errors, key=lambda pair: pair[0])
