@@ -24,8 +24,6 @@ from diffbot_sim.physics.effects.wheel_ripple import WheelRipple
 from diffbot_sim.records import Run
 
 SURE = Evidence(90.0, 0.0, 0.0, 0.1, 0.0, 0.0)
-
-
 RIPPLE = WheelRipple(order=6.0, right_cos=2.0, left_cos=2.0)
 
 

@@ -51,7 +51,7 @@ def test_bad_guess_is_set_nearer_to_the_runs(name: str, factor: float) -> None:
 )
 def test_number_in_another_unit_is_refused(name: str, factor: float) -> None:
     with pytest.raises(DataError, match=rf'robot\.{name} is declared as .* another unit\?'):
-        set_nearer(wrong_by(factor, name))
+        identify([RUN], wrong_by(factor, name))
 
 
 def test_nothing_is_missing_of_a_robot_that_was_guessed_badly() -> None:

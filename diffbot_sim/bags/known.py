@@ -8,7 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diffbot_sim.bags.poses import TWIST
-from diffbot_sim.bags.series import LONGEST_SILENCE, NANOSECONDS, Ordered, Stamps, silence
+from diffbot_sim.bags.series import (
+    LONGEST_SILENCE,
+    NANOSECONDS,
+    Ordered,
+    Stamps,
+    silence,
+    silences,
+)
 from diffbot_sim.errors import BagError
 from diffbot_sim.standing import is_moving
 
@@ -71,9 +78,8 @@ def _ended(odom: Ordered, force: Ordered) -> Known:
 
 def _is_steady(force: Ordered, odom: Ordered) -> bool:
     """Say whether a force was sent all along, without a pause, but for the end."""
-    pause = silence(force)
-    pauses, left = np.diff(force.stamp) > pause, odom.stamp[-1] - force.stamp[-1]
-    return bool(not pauses.any() and left > pause and np.ptp(force.stamp) > left)
+    left = odom.stamp[-1] - force.stamp[-1]
+    return bool(not silences(force) and left > silence(force) and np.ptp(force.stamp) > left)
 
 
 def _part(odom: Ordered, kept: NDArray[np.bool_]) -> Ordered:

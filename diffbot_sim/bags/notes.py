@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import numpy as np
 
 from diffbot_sim.bags.clock import Leap
-from diffbot_sim.bags.pauses import is_within, pauses
+from diffbot_sim.bags.pauses import is_within
 from diffbot_sim.bags.poses import is_filled
 from diffbot_sim.bags.series import ABSURD, NANOSECONDS, Ordered, Series, Stamps, silences
 from diffbot_sim.records import Run
@@ -16,12 +16,15 @@ MOST = 5  # holes that are told one by one
 OFTEN = 0.01
 
 
-def notes_on(usable: Mapping[str, Ordered], run: Run, start: int) -> Iterator[str]:
+def notes_on(
+    usable: Mapping[str, Ordered], run: Run, start: int, paused: Sequence[Stamps]
+) -> Iterator[str]:
     """Yield a line for each thing that was noticed.
 
-    usable: by its role, what each topic held; start: the moment of run time 0 [ns].
+    usable: by its role, what each topic held; start: the moment of run time 0 [ns]; paused: the
+    stamps around each time in which nothing was heard.
     """
-    odom, paused = usable['odom'], pauses(usable)
+    odom = usable['odom']
     for role, item in usable.items():
         yield from _left_out(item)
         if role == 'odom':

@@ -68,10 +68,11 @@ def _recorded(name: str, series: Mapping[str, Series]) -> RecordedRun:
     start = int(min(stamps[0], odom.stamp[0]))
     force = np.column_stack([held(right, stamps), held(left, stamps)])
     run = Run(name, Commands(_seconds(stamps, start), force), _odometry(odom, start))
-    notes += (*notes_on(usable, run, start), *bounds)
-    spans = (map(float, _seconds(gap, start)) for gap in pauses(usable))
-    paused = tuple((begin, end) for begin, end in spans)
-    return RecordedRun(run, start, tuple(f'{name}: {note}' for note in notes), paused)
+    paused = pauses(usable)
+    notes += (*notes_on(usable, run, start, paused), *bounds)
+    spans = (map(float, _seconds(gap, start)) for gap in paused)
+    unheard = tuple((begin, end) for begin, end in spans)
+    return RecordedRun(run, start, tuple(f'{name}: {note}' for note in notes), unheard)
 
 
 def _usable(series: Mapping[str, Series]) -> tuple[dict[str, Ordered], bool]:

@@ -5,10 +5,13 @@ from dataclasses import replace
 import numpy as np
 
 from diffbot_sim.identification.doubt import Seen, doubt
-from diffbot_sim.identification.fitting.calibration import simulation_error, simulation_error_at
+from diffbot_sim.identification.fitting.calibration import (
+    simulation_error,
+    simulation_error_at,
+    simulation_errors,
+)
 from diffbot_sim.identification.fitting.coordinates import Space
-from diffbot_sim.identification.fitting.fit import UNIT, Fit, fit_simulation, whitened
-from diffbot_sim.identification.fitting.predictor import NO_GAIN
+from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
 from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.recordings.free_running import free_running_error, run_free
 from diffbot_sim.identification.recordings.noiseless import is_noiseless
@@ -92,6 +95,6 @@ def _held_out_errors(found: Found, fit: Fit) -> Array:
     by half a cycle a true ripple is worse than none.
     """
     simulated = _simulating(fit.space, found.recalibrated.stretches, fit.u) or fit
-    model = simulated.model
-    in_step = whitened(restarted(model, found.held_out), model, NO_GAIN, UNIT)
-    return np.array([free_running_error(model, found.held_out), rms_of_each(in_step)])
+    begun = restarted(simulated.model, found.held_out)
+    in_step = simulation_errors(simulated.space, begun, simulated.u)
+    return np.array([free_running_error(simulated.model, found.held_out), rms_of_each(in_step)])
