@@ -14,10 +14,18 @@ class Commands:
 
     time: stamps [s], shape (n,), increasing.
     force: traction forces [N], shape (n, 2), columns right and left.
+    unsure: the variance that messages which were lost add to the impulse of each force for each
+    second [N²·s], shape (n, 2); None where none were.
     """
 
     time: Array
     force: Array
+    unsure: Array | None = None
+
+    def rows(self, which: NDArray[np.int64] | NDArray[np.bool_]) -> 'Commands':
+        """Return some of the commands."""
+        unsure = None if self.unsure is None else self.unsure[which]
+        return Commands(self.time[which], self.force[which], unsure)
 
 
 @dataclass(frozen=True)

@@ -129,4 +129,4 @@ def test_messages_lost_by_a_busy_recorder_are_no_leap(tmp_path):
     begin, end = START + 2 * SECOND, START + 3 * SECOND
     kept = [m for m in long_drive() if not begin + SECOND // 5 < m.stamp < end]
     late = [m._replace(stamp=end) if begin < m.stamp < end else m for m in kept]
-    assert read(tmp_path, late).notes == ()
+    assert not [note for note in read(tmp_path, late).notes if 'leap' in note]

@@ -9,6 +9,7 @@ from diffbot_sim.identification.fitting.fit import FIRST_GAINS
 from diffbot_sim.identification.fitting.predictor import predict
 from diffbot_sim.identification.fitting.response import response
 from diffbot_sim.identification.recordings.stretches import Stretch, whole
+from diffbot_sim.identification.recordings.unheard import unheard
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.physics.effects.yaw_friction import YawFriction
@@ -54,6 +55,19 @@ def test_a_rolling_robot_answers_as_the_predictor_does(effects, means) -> None:
     push = np.random.default_rng(1).normal(size=(1000, 2)).cumsum(axis=0) / 30.0
     linear = response(model, stretch, FIRST_GAINS, FORCE).errors(push[..., None])[..., 0]
     wanted = difference(model, stretch, push)
+    assert np.linalg.norm(linear - wanted) < 0.02 * np.linalg.norm(wanted)
+
+
+def test_a_robot_whose_commands_were_lost_answers_as_the_predictor_does() -> None:
+    stretch = driven(Model(), wandering(8.0))
+    unsure = np.where(np.arange(1000) % 150 == 90, 0.05, 0.0)[:, None] * np.ones(2)
+    noisy = stretch.twist + np.random.default_rng(3).normal(0.0, 0.005, (1000, 2))
+    lost = unheard(replace(stretch.run.commands, unsure=unsure), TIME, noisy)
+    stretch = replace(stretch, unheard=lost)
+    assert lost.weight.min() < 0.5
+    push = np.random.default_rng(1).normal(size=(1000, 2)).cumsum(axis=0) / 30.0
+    linear = response(Model(), stretch, FIRST_GAINS, FORCE).errors(push[..., None])[..., 0]
+    wanted = difference(Model(), stretch, push)
     assert np.linalg.norm(linear - wanted) < 0.02 * np.linalg.norm(wanted)
 
 

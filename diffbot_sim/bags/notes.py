@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import numpy as np
 
 from diffbot_sim.bags.clock import Leap
+from diffbot_sim.bags.lost import lost
 from diffbot_sim.bags.pauses import is_within
 from diffbot_sim.bags.poses import is_filled
 from diffbot_sim.bags.series import ABSURD, NANOSECONDS, Ordered, Series, Stamps, silences
@@ -30,6 +31,7 @@ def notes_on(
         if role == 'odom':
             yield from _told(item, silences(item), start, 'what happened there is unknown')
             continue
+        yield from _lost(item)
         holes = [gap for gap in silences(item) if not is_within(gap, paused)]
         held = [gap for gap in holes if _goes_on(odom, gap)]
         yield from _told(item, held, start, 'the last force is taken to be held')
@@ -67,6 +69,15 @@ def _left_out(item: Ordered) -> Iterator[str]:
         yield (
             f'{item.repeated} of {many} messages of {item.topic} bear the stamp of another; '
             'used the last of each'
+        )
+
+
+def _lost(item: Ordered) -> Iterator[str]:
+    missing = int(lost(item).sum()) - item.dropped - item.absurd
+    if missing > 0:
+        yield (
+            f'{missing} messages of {item.topic} are missing, of {len(item.stamp) + missing}; '
+            'those forces are taken to lie between their neighbours'
         )
 
 

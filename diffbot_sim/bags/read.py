@@ -8,6 +8,7 @@ import numpy as np
 
 from diffbot_sim.bags.clock import leaps, unset
 from diffbot_sim.bags.known import apart, known
+from diffbot_sim.bags.lost import with_lost
 from diffbot_sim.bags.notes import notes_on, notes_on_clock
 from diffbot_sim.bags.pauses import pauses
 from diffbot_sim.bags.poses import pose_of, without_broken
@@ -60,14 +61,13 @@ def _recorded(name: str, series: Mapping[str, Series]) -> RecordedRun:
     usable, by_header = _usable({role: unset(it, leapt[role]) for role, it in series.items()})
     if not by_header:
         notes.append('not all messages are stamped; used the times of receipt')
-    left, right = forces = usable['left_force'], usable['right_force']
-    stamps = np.union1d(left.stamp, right.stamp)
+    forces = usable['left_force'], usable['right_force']
+    stamps = np.union1d(*(force.stamp for force in forces))
     _check_overlap(stamps, usable['odom'].stamp)
     odom, bounds = known(usable['odom'], forces)
     _check_count(odom)
     start = int(min(stamps[0], odom.stamp[0]))
-    force = np.column_stack([held(right, stamps), held(left, stamps)])
-    run = Run(name, Commands(_seconds(stamps, start), force), _odometry(odom, start))
+    run = Run(name, _commands(*forces, start), _odometry(odom, start))
     paused = pauses(usable)
     notes += (*notes_on(usable, run, start, paused), *bounds)
     spans = (map(float, _seconds(gap, start)) for gap in paused)
@@ -86,6 +86,14 @@ def _usable(series: Mapping[str, Series]) -> tuple[dict[str, Ordered], bool]:
         for role, item in series.items()
     }
     return usable, by_header
+
+
+def _commands(left: Ordered, right: Ordered, start: int) -> Commands:
+    """Return what both wheels were commanded, those that were lost among it."""
+    wheels = with_lost(right), with_lost(left)
+    stamps = np.union1d(*(wheel.stamp for wheel in wheels))
+    force, unsure = np.dstack([held(wheel, stamps) for wheel in wheels]).swapaxes(0, 1)
+    return Commands(_seconds(stamps, start), force, unsure if unsure.any() else None)
 
 
 def _odometry(odom: Ordered, start: int) -> Odometry:

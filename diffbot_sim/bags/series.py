@@ -100,9 +100,9 @@ def silences(series: Ordered) -> list[Stamps]:
 
 
 def held(series: Ordered, stamps: Stamps) -> Array:
-    """Return the first column at other stamps, each value held until the next, 0 before all."""
+    """Return the values at other stamps, shape (k, m), each held until the next, 0 before all."""
     index = np.searchsorted(series.stamp, stamps, side='right') - 1
-    return np.where(index >= 0, series.values[index, 0], 0.0)
+    return np.where(index[:, None] >= 0, series.values[index], 0.0)
 
 
 def _check_finite(topic: str, finite: NDArray[np.bool_]) -> None:

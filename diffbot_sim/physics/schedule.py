@@ -1,5 +1,7 @@
 """What the commands become before any kernel sees them: late, and cut where effects change."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from diffbot_sim.physics.model import Model
@@ -28,5 +30,5 @@ def scheduled(model: Model, commands: Commands) -> Commands:
     time = np.concatenate([commands.time[:1], commands.time[1:] + delay])
     inside = np.array([m for m in moments if m > time[0]])
     at = np.searchsorted(time, inside, side='right')
-    force = np.insert(commands.force, at, commands.force[at - 1], axis=0)
-    return Commands(np.insert(time, at, inside), force)
+    kept = np.sort(np.append(np.arange(len(time)), at - 1))
+    return replace(commands.rows(kept), time=np.insert(time, at, inside))

@@ -15,6 +15,7 @@ from numba import types
 
 from diffbot_sim.identification.recordings.start import PREDICTION_STEP
 from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.recordings.unheard import Unheard, all_heard
 from diffbot_sim.physics.compiled import entry
 from diffbot_sim.physics.composition import compose
 from diffbot_sim.physics.correction import correct
@@ -41,15 +42,17 @@ from diffbot_sim.records import Array
 ROLLED = 0.5
 # Gains: of speed, of the disturbance, and the disturbance's memory over one second; v, then ω.
 NO_GAIN = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+SPEED, DISTURBANCE, MEMORY = [0, 3], [1, 4], [2, 5]
 
 
 @dataclass(frozen=True)
 class Prediction:
     """Errors of the one-step prediction, and what the predictor held to be true.
 
-    innovation: measured - predicted twist, shape (k, 2); twist: of the moment, corrected, shape
-    (k, 2); disturbance: estimated force [N] and torque [N·m] on the body, shape (k, 2); snapshots:
-    what the next step sets out from, a row for each sample.
+    innovation: measured - predicted twist, as it counts where commands were lost, shape (k, 2);
+    twist: of the moment, corrected, shape (k, 2); disturbance: estimated force [N] and torque
+    [N·m] on the body, shape (k, 2); snapshots: what the next step sets out from, a row for each
+    sample.
     """
 
     innovation: Array
@@ -67,6 +70,7 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
     commands = scheduled(model, stretch.run.commands)
     states = initial_states(model, commands, float(stretch.time[0]))
     out, snapshots = np.zeros((count, 6)), np.empty((count, snapshot_size(states)))
+    counting = counted(stretch, gains)
     _predict(
         *compose(model.kinds),
         model.pack(),
@@ -81,6 +85,8 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
         stretch.heading,
         np.ascontiguousarray(stretch.way),
         np.ascontiguousarray(gains),
+        counting.taken(gains[SPEED]),
+        counting.weight,
         np.ascontiguousarray(stretch.pushes),
         *workspace(),
         out,
@@ -89,11 +95,17 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
     return Prediction(out[:, 0:2], out[:, 2:4], out[:, 4:6], snapshots)
 
 
+def counted(stretch: Stretch, gains: Array) -> Unheard:
+    """Return how the errors of a stretch count: where nothing corrects a model, all alike."""
+    return stretch.unheard if np.any(gains) else all_heard(len(stretch.time))
+
+
 @entry(
     types.void(
         *FUNCTION_TYPES,
         *(ARRAY, ARRAY, ARRAY, ARRAY, MATRIX, types.float64),
-        *(ARRAY, MATRIX, ARRAY, ARRAY, MATRIX, ARRAY, MATRIX, INTEGERS, MATRIX, MATRIX, MATRIX),
+        *(ARRAY, MATRIX, ARRAY, ARRAY, MATRIX, ARRAY, MATRIX, MATRIX, MATRIX),
+        *(INTEGERS, MATRIX, MATRIX, MATRIX),
     )
 )
 def _predict(  # type: ignore[no-untyped-def]
@@ -112,6 +124,8 @@ def _predict(  # type: ignore[no-untyped-def]
     heading,
     way,
     gains,
+    taken,
+    weight,
     push,
     modes,
     work,
@@ -142,14 +156,14 @@ def _predict(  # type: ignore[no-untyped-def]
             )
             interval = time - times[k - 1]
             v, omega = measured(params, means, z, before, interval)
-            out[k, 0], out[k, 1] = twist[k, 0] - v, twist[k, 1] - omega
             # What a force did all the while is at the end twice what it is on the mean.
-            error_v, error_omega = (1.0 + means[0]) * out[k, 0], (1.0 + means[1]) * out[k, 1]
-            correct(z, modes, params[2], gains[0] * error_v, gains[3] * error_omega)
-            pushing = gains[2] ** interval * pushing + gains[1] * params[0] / interval * error_v
-            turning = (
-                gains[5] ** interval * turning + gains[4] * params[1] / interval * error_omega
-            )
+            missed_v = (1.0 + means[0]) * (twist[k, 0] - v)
+            missed = (1.0 + means[1]) * (twist[k, 1] - omega)
+            correct(z, modes, params[2], taken[k, 0] * missed_v, taken[k, 1] * missed)
+            told_v, told = weight[k, 0] * missed_v, weight[k, 1] * missed
+            pushing = gains[2] ** interval * pushing + gains[1] * params[0] / interval * told_v
+            turning = gains[5] ** interval * turning + gains[4] * params[1] / interval * told
+            out[k, 0], out[k, 1] = told_v / (1.0 + means[0]), told / (1.0 + means[1])
             roll(params, z, way[k, 0], way[k, 1], 1.0 - exp(-interval / ROLLED))
         z[HEADING] = heading[k]
         out[k, 2], out[k, 3] = twist_of(params, z)

@@ -11,11 +11,12 @@ import numpy as np
 from numba import types
 
 from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.fitting.predictor import DISTURBANCE, MEMORY, SPEED, counted
 from diffbot_sim.identification.fitting.steps import Steps
 from diffbot_sim.identification.recordings.stretches import Stretch, largest_command
 from diffbot_sim.identification.statistics.parallel import each
 from diffbot_sim.physics.compiled import compiled, entry
-from diffbot_sim.physics.dynamics import ARRAY, MATRIX
+from diffbot_sim.physics.dynamics import MATRIX
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array
 
@@ -30,12 +31,14 @@ class Response:
 
     steps, shape (k, 4, 4): derivative of the twist that is predicted to be measured, and of the
     twist at that moment, by the twist one sample before, as corrected, and by a force [N] and
-    torque [N·m] on the body in between; taken, shape (2,): share of an error by which the twist is
-    corrected; gain, shape (k, 2): force and torque that an error adds to the disturbance; memory,
-    shape (k, 2): share of it that is left from the sample before.
+    torque [N·m] on the body in between; weight, shape (k, 2): what an error counts; taken, shape
+    (k, 2): share of it by which the twist is corrected; gain, shape (k, 2): force and torque that
+    an error that counts adds to the disturbance; memory, shape (k, 2): share of that which is left
+    from the sample before.
     """
 
     steps: Array
+    weight: Array
     taken: Array
     gain: Array
     memory: Array
@@ -53,7 +56,7 @@ class Response:
         """Return what changes of single steps, shape (k, 4, q), add to the innovations."""
         out = np.zeros((len(changes), 2, changes.shape[2]))
         changes = np.ascontiguousarray(changes)
-        _carry(self.steps, self.taken, self.gain, self.memory, changes, out)
+        _carry(self.steps, self.weight, self.taken, self.gain, self.memory, changes, out)
         return out
 
     def followed(self, errors: Array) -> Array:
@@ -77,8 +80,10 @@ def response(model: Model, stretch: Stretch, gains: Array, force: float) -> Resp
     slopes = np.stack([steps.slope(by) for by in np.diag(sizes)], axis=-1)
     intervals = np.diff(stretch.time, prepend=stretch.time[0] - stretch.interval)[:, None]
     at_end = 1.0 + np.array(stretch.run.odometry.means, dtype=float)
-    gain = gains[[1, 4]] * at_end * body / intervals
-    return Response(slopes, gains[[0, 3]] * at_end, gain, gains[[2, 5]] ** intervals)
+    gain = gains[DISTURBANCE] * at_end * body / intervals
+    counting = counted(stretch, gains)
+    taken = counting.taken(gains[SPEED]) * at_end
+    return Response(slopes, counting.weight, taken, gain, gains[MEMORY] ** intervals)
 
 
 @compiled
@@ -86,9 +91,9 @@ def _along(slopes: Array, v: float, omega: float, force: float, torque: float) -
     return float(slopes[0] * v + slopes[1] * omega + slopes[2] * force + slopes[3] * torque)
 
 
-@entry(types.void(CUBE, ARRAY, MATRIX, MATRIX, CUBE, CUBE))
+@entry(types.void(CUBE, MATRIX, MATRIX, MATRIX, MATRIX, CUBE, CUBE))
 def _carry(  # type: ignore[no-untyped-def]
-    steps, taken, gain, memory, changes, out
+    steps, weight, taken, gain, memory, changes, out
 ) -> None:
     """Fill out: what each change, carried on from step to step, adds to the errors."""
     for q in range(changes.shape[2]):
@@ -96,12 +101,12 @@ def _carry(  # type: ignore[no-untyped-def]
         for k in range(1, len(steps)):
             told_v = _along(steps[k, 0], v, omega, pushing, turning) + changes[k, 0, q]
             told = _along(steps[k, 1], v, omega, pushing, turning) + changes[k, 1, q]
-            out[k, 0, q], out[k, 1, q] = -told_v, -told
+            out[k, 0, q], out[k, 1, q] = -weight[k, 0] * told_v, -weight[k, 1] * told
             now_v = _along(steps[k, 2], v, omega, pushing, turning) + changes[k, 2, q]
             now = _along(steps[k, 3], v, omega, pushing, turning) + changes[k, 3, q]
-            v, omega = now_v - taken[0] * told_v, now - taken[1] * told
-            pushing = memory[k, 0] * pushing - gain[k, 0] * told_v
-            turning = memory[k, 1] * turning - gain[k, 1] * told
+            v, omega = now_v - taken[k, 0] * told_v, now - taken[k, 1] * told
+            pushing = memory[k, 0] * pushing + gain[k, 0] * out[k, 0, q]
+            turning = memory[k, 1] * turning + gain[k, 1] * out[k, 1, q]
 
 
 @entry(types.void(MATRIX, MATRIX, CUBE, CUBE))

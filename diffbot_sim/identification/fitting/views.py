@@ -8,6 +8,7 @@ import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit, predictions
 from diffbot_sim.identification.fitting.predictor import NO_GAIN, Prediction, predict
+from diffbot_sim.identification.recordings.acting import added_up
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.records import Array
 
@@ -65,15 +66,8 @@ class View:
     def past_force(self, first: float, last: float) -> Array:
         """Return commanded forces averaged from `last` to `first` seconds ago, shape (k, 2)."""
         commands, time = self.stretch.run.commands, self.stretch.time
-        stamps = np.append(commands.time, max(float(commands.time[-1]), float(time[-1])) + 1e-9)
-        impulse = np.vstack(
-            [np.zeros(2), np.cumsum(np.diff(stamps)[:, None] * commands.force, axis=0)]
-        )
-        ends = [
-            np.column_stack([np.interp(time - lag, stamps, wheel) for wheel in impulse.T])
-            for lag in (first, last)
-        ]
-        return np.asarray((ends[0] - ends[1]) / (last - first))
+        until = (added_up(commands.time, commands.force, time - lag) for lag in (first, last))
+        return np.asarray(np.subtract(*until) / (last - first))
 
 
 def views(fit: Fit, stretches: Sequence[Stretch]) -> list[View]:

@@ -37,7 +37,9 @@ class Fault:
 
 def _driven(run: Run, by: Array) -> Run:
     """Return a run with other forces: a matrix of what is taken of the right, and left, one."""
-    return replace(run, commands=Commands(run.commands.time, run.commands.force @ by.T))
+    given = run.commands
+    unsure = None if given.unsure is None else given.unsure @ np.abs(by.T)
+    return replace(run, commands=Commands(given.time, given.force @ by.T, unsure))
 
 
 def _told(run: Run, units: Array) -> Run:

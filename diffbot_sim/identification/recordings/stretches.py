@@ -6,7 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from diffbot_sim.errors import DataError
+from diffbot_sim.identification.recordings.acting import added_up
 from diffbot_sim.identification.recordings.intervals import mean_interval, median_interval
+from diffbot_sim.identification.recordings.unheard import Unheard, unheard
 from diffbot_sim.identification.recordings.way import measured_heading, measured_way
 from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array, Commands, Odometry, Run
@@ -36,8 +38,8 @@ class Stretch:
     time [s], shape (k,), counted from the start of the run; twist, shape (k, 2); heading [rad],
     shape (k,), as measured_heading tells; way [m] and turn [rad] since the wheels stood at angle
     0, shape (k, 2), as measured_way tells; start: state at time[0]; used: samples that count in
-    fits, shape (k,); push: a force [N] and torque [N·m] that acts on the body after each sample,
-    shape (k, 2), none unless given.
+    fits, shape (k,); unheard: how errors count after commands that were lost; push: a force [N]
+    and torque [N·m] that acts on the body after each sample, shape (k, 2), none unless given.
     """
 
     run: Run
@@ -48,6 +50,7 @@ class Stretch:
     pose: Array | None
     start: State
     used: Array
+    unheard: Unheard
     push: Array | None = None
 
     @property
@@ -135,19 +138,21 @@ def _surplus(time: Array, highest: float) -> int:
 def _together(given: Commands) -> Commands:
     """Return commands of which those of one tick, each wheel's with its own stamp, are one."""
     last = np.append(np.diff(given.time) > AT_ONCE * mean_interval(given.time), True)
-    return given if last.all() else Commands(given.time[last], given.force[last])
+    return given if last.all() else given.rows(last)
 
 
 def _held_longer(given: Commands, many: int) -> Commands:
     """Return commands of which so many have become one each, of the same impulse."""
-    lasting = np.diff(given.time)[:, None]
-    count = len(lasting) // many * many
-    impulse, held = (
-        values[:count].reshape(-1, many, values.shape[1]).sum(axis=1)
-        for values in (given.force[:-1] * lasting, lasting)
-    )
+    count = (len(given.time) - 1) // many * many
     time = np.concatenate([given.time[:count:many], given.time[count:]])
-    return Commands(time, np.concatenate([impulse / held, given.force[count:]]))
+    lasting = np.diff(time)[:, None]
+
+    def longer(held: Array) -> Array:
+        added = np.diff(added_up(given.time, held, time), axis=0)
+        return np.concatenate([added / lasting, held[-1:]])
+
+    unsure = None if given.unsure is None else longer(given.unsure)
+    return Commands(time, longer(given.force), unsure)
 
 
 def _averaged(values: Array, group: int) -> Array:
@@ -170,7 +175,8 @@ def _stretch(run: Run, begin: float, end: float) -> Stretch:
         travelled=float(travelled),
         turned=float(turned),
     )
-    return Stretch(run, time, twist, np.ascontiguousarray(heading), way, pose, start, used)
+    lost = unheard(run.commands, time, twist)
+    return Stretch(run, time, twist, np.ascontiguousarray(heading), way, pose, start, used, lost)
 
 
 def _used(name: str, time: Array) -> Array:

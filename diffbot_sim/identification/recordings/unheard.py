@@ -1,0 +1,63 @@
+"""What lost commands leave unsure: the speed, until as many samples have told it as noise asks.
+
+The gains of a noise model are those of all samples. After a command that was lost, odometry knows
+more of the speed than a prediction does: it corrects that as a Kalman filter would, and what it
+says of the model counts less.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from diffbot_sim.identification.recordings.acting import added_up
+from diffbot_sim.identification.statistics.norms import white_noise
+from diffbot_sim.records import Array, Commands
+
+
+class Unheard(NamedTuple):
+    """How errors of v and ω count after commands that were lost.
+
+    regained, shape (k, 2): the share of each error that is corrected at once; weight, shape
+    (k, 2): what it counts, as it scatters more than others.
+    """
+
+    regained: Array
+    weight: Array
+
+    def taken(self, gains: Array) -> Array:
+        """Return the share of each error that is corrected, gains of v and ω, (2,), included."""
+        return np.asarray(1.0 - (1.0 - gains) * (1.0 - self.regained))
+
+
+def all_heard(count: int) -> Unheard:
+    """Return how errors count where no command was lost: all alike."""
+    return Unheard(np.zeros((count, 2)), np.ones((count, 2)))
+
+
+def unheard(commands: Commands, time: Array, twist: Array) -> Unheard:
+    """Return how the errors count of what was seen of a robot that was commanded."""
+    told = all_heard(len(time))
+    if commands.unsure is None:
+        return told
+    noise, variance = white_noise(twist) ** 2, np.zeros(2)
+    for k, more in enumerate(_variance(commands, commands.unsure, time, twist), start=1):
+        variance = variance + more
+        told.regained[k] = variance / (variance + noise)
+        variance = variance * (1.0 - told.regained[k])
+    return told._replace(weight=np.sqrt(1.0 - told.regained))
+
+
+def _variance(commands: Commands, unsure: Array, time: Array, twist: Array) -> Array:
+    """Return the variance that lost commands add to v and ω over each interval, (k - 1, 2)."""
+    by_wheels, added = (
+        np.diff(added_up(commands.time, held, time), axis=0) for held in (commands.force, unsure)
+    )
+    on_body = by_wheels @ np.array([[1.0, 1.0], [1.0, -1.0]])
+    moved = np.array([_moved(*axis) for axis in zip(on_body.T, twist.T, strict=True)])
+    return np.asarray(added.sum(axis=1, keepdims=True) * moved**2)
+
+
+def _moved(impulse: Array, rate: Array) -> float:
+    """Return by how much an impulse changes a rate, as the motion tells it beside friction."""
+    known = np.column_stack([impulse, rate[:-1], np.sign(rate[:-1]), np.ones(len(impulse))])
+    return float(np.linalg.lstsq(known, np.diff(rate))[0][0])
