@@ -28,7 +28,8 @@ from diffbot_sim.report import Origin
 from diffbot_sim.report.json_report import json_text
 from diffbot_sim.report.page import page_text
 
-ORIGIN = Origin(('drives/first', 'drives/second'), (), 'robot.yaml', '2026-11-28', '0.1.0')
+NOTES = ('first: odom has holes',)
+ORIGIN = Origin(('drives/first', 'drives/second'), (), 'robot.yaml', '2026-11-28', '0.1.0', NOTES)
 NOISE = (0.004, 0.008)
 
 

@@ -53,6 +53,14 @@ def test_impulse_is_as_unsure_as_the_step_over_the_time_that_nobody_heard():
     assert impulse == pytest.approx((3.0 * 2 * TICK * 1e-9) ** 2)
 
 
+def test_force_that_is_held_through_a_silence_is_as_unsure_as_any():
+    ticks = np.delete(np.arange(200), np.arange(20, 90))
+    found = with_lost(forces(ticks, ticks % 7))
+    (at,) = np.flatnonzero(found.values[:, 1])
+    assert found.stamp[at] == START + 20 * TICK
+    assert found.values[at] == pytest.approx([19 % 7, 71 * 0.02 * np.var(ticks % 7)])
+
+
 @given(st.lists(st.floats(-1e3, 1e3), min_size=3, max_size=60))
 def test_forces_of_which_none_was_lost_are_as_they_were(values):
     given_ = forces(np.arange(len(values)), np.array(values))

@@ -172,6 +172,12 @@ def test_page_says_what_was_assumed(words: str) -> None:
     assert words in said[said.index('What was assumed') :]
 
 
+def test_what_was_noticed_in_the_bags_is_told_where_it_is_read() -> None:
+    said = by_hand.page(by_hand.found())
+    assert by_hand.NOTES[0] in said[said.index('What was assumed') :]
+    assert json.loads(by_hand.as_json(by_hand.found()))['origin']['notes'] == [*by_hand.NOTES]
+
+
 def test_json_tells_numbers_in_full_precision() -> None:
     third = replace(by_hand.errors(0.03), declared=by_hand.ErrorNorm(1 / 3, 2 / 3))
     report = json.loads(by_hand.as_json(replace(by_hand.found(), errors=third)))

@@ -62,7 +62,7 @@ def test_a_robot_whose_commands_were_lost_answers_as_the_predictor_does() -> Non
     stretch = driven(Model(), wandering(8.0))
     unsure = np.where(np.arange(1000) % 150 == 90, 0.05, 0.0)[:, None] * np.ones(2)
     noisy = stretch.twist + np.random.default_rng(3).normal(0.0, 0.005, (1000, 2))
-    lost = unheard(replace(stretch.run.commands, unsure=unsure), TIME, noisy)
+    lost = unheard(replace(stretch.run.commands, unsure=unsure), TIME, noisy, (False, False))
     stretch = replace(stretch, unheard=lost)
     assert lost.weight.min() < 0.5
     push = np.random.default_rng(1).normal(size=(1000, 2)).cumsum(axis=0) / 30.0

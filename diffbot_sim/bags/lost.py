@@ -1,7 +1,8 @@
-"""Force messages that a recording lost: single ones of a topic that comes at a steady rate.
+"""Force messages that a recording lost, of a topic that comes at a steady rate.
 
-The robot may well have had them. They are taken to lie between their neighbours, and what may be
-wrong with that is told, so that nobody takes it for a force that the model lacks.
+The robot may well have had them. Single ones are taken to lie between their neighbours; while a
+topic is silent for long its last force is held. What may be wrong with either is told, so that
+nobody takes it for a force that the model lacks.
 """
 
 from dataclasses import replace
@@ -9,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diffbot_sim.bags.series import NANOSECONDS, Ordered, silence
+from diffbot_sim.bags.series import NANOSECONDS, Ordered, silence, silences, usual_interval
 from diffbot_sim.records import Array
 
 # A topic comes at a steady rate if nine in ten of its intervals are whole numbers of the usual
@@ -21,27 +22,38 @@ SLOWEST = NANOSECONDS // 5
 MEDIAN = 0.6745
 
 
-def lost(force: Ordered) -> NDArray[np.int64]:
-    """Return how many messages were lost after each one, shape (n,); none if the rate varies.
-
-    Where a topic is silent for long it was not sent.
-    """
-    steps, none = np.diff(force.stamp), np.zeros(len(force.stamp), np.int64)
-    usual = float(np.median(steps)) if steps.size else np.inf
-    if usual > SLOWEST:
-        return none
-    whole = np.maximum(np.rint(steps / usual), 1.0)
-    even = np.abs(steps / usual - whole) < WITHIN
-    missing = np.where(even & (steps < silence(force)), whole - 1.0, 0.0)
-    is_steady = even.mean() >= STEADY and missing.sum() < FEW * len(steps)
-    return np.append(missing, 0.0).astype(np.int64) if is_steady else none
-
-
 def with_lost(force: Ordered) -> Ordered:
     """Return forces with those that were lost put in, shape (m, 2): force, how unsure it is.
 
     That is the variance of its impulse for each second, [N²·s], as Commands tell it.
     """
+    taken = _with_single(force)
+    return _with_silent(taken) if _is_steady(force) else taken
+
+
+def lost(force: Ordered) -> NDArray[np.int64]:
+    """Return how many single messages were lost after each one, shape (n,)."""
+    return _skipped(force) if _is_steady(force) else np.zeros(len(force.stamp), np.int64)
+
+
+def _is_steady(force: Ordered) -> bool:
+    """Say whether a topic comes at a steady rate."""
+    steps, usual = np.diff(force.stamp), usual_interval(force)
+    if usual > SLOWEST:
+        return False
+    is_even = np.abs(steps / usual - np.rint(steps / usual)) < WITHIN
+    return bool(is_even.mean() >= STEADY and _skipped(force).sum() < FEW * len(steps))
+
+
+def _skipped(force: Ordered) -> NDArray[np.int64]:
+    """Return how many usual intervals passed after each message without one, but for silences."""
+    steps = np.diff(force.stamp, append=force.stamp[-1:])
+    skipped = np.maximum(np.rint(steps / usual_interval(force)) - 1.0, 0.0)
+    return np.where(steps < silence(force), skipped, 0.0).astype(np.int64)
+
+
+def _with_single(force: Ordered) -> Ordered:
+    """Return forces with single ones that were lost put in, and how unsure they are."""
     missing, size = lost(force), force.values[:, 0]
     place = np.repeat(np.arange(len(size)), 1 + missing)
     within = np.arange(len(place)) - np.searchsorted(place, place)
@@ -55,6 +67,23 @@ def with_lost(force: Ordered) -> Ordered:
         values=np.column_stack(
             [size[place] + share * step[place], np.where(within > 0, variance[place], 0.0)]
         ),
+    )
+
+
+def _with_silent(force: Ordered) -> Ordered:
+    """Return forces of which those that are held through a silence are unsure, too.
+
+    As much as any, from one usual interval after the last on.
+    """
+    gaps = silences(force)
+    begins = np.array([begin for begin, _ in gaps], np.int64)
+    lasting = np.array([end - begin for begin, end in gaps]) / NANOSECONDS
+    last, size = np.searchsorted(force.stamp, begins), force.values[:, 0]
+    rows = np.column_stack([size[last], lasting * size.var()])
+    return replace(
+        force,
+        stamp=np.insert(force.stamp, last + 1, begins + int(usual_interval(force))),
+        values=np.insert(force.values, last + 1, rows, axis=0),
     )
 
 

@@ -65,7 +65,8 @@ def run(arguments: Namespace) -> None:
     given, others = in_parts(recorded[:learned]), in_parts(recorded[learned:])
     runs, validate = ([item.run for item in items] for items in (given, others))
     result = identify(runs, declared, validate, progress=_tell)
-    origin = origin_of(arguments.bags, arguments.validate, arguments.params)
+    notes = [note for item in read for note in item.notes]
+    origin = origin_of(arguments.bags, arguments.validate, arguments.params, notes)
     save(result, origin, arguments.out, [*given, *others])
     print_summary(result)
     print(f'report: {arguments.out / "report.html"}')

@@ -25,3 +25,11 @@ def correct(z: Array, modes: Modes, b: float, v: float, omega: float) -> None:
     contact.stop_wheels(z, modes)
     if modes[YAW] != FREE:
         modes[YAW] = np.sign(z[SPEED_RIGHT] - z[SPEED_LEFT])
+
+
+@compiled
+def put(z: Array, modes: Modes, b: float, v: float, omega: float) -> None:
+    """Change the speed of both wheels by v [m/s] and omega [rad/s], whatever they did before."""
+    z[SPEED_RIGHT] += v + b * omega
+    z[SPEED_LEFT] += v - b * omega
+    contact.modes_of(z, 0.0 if modes[YAW] == FREE else 1.0, modes)

@@ -1,5 +1,7 @@
 """What the answer takes for granted: a reader who knows better knows what not to believe."""
 
+from collections.abc import Sequence
+
 from diffbot_sim.identification.conclusions import agreement
 from diffbot_sim.identification.recordings import stretches
 from diffbot_sim.identification.recordings.intervals import median_interval
@@ -10,9 +12,12 @@ from diffbot_sim.report.remarks import remarks
 from diffbot_sim.report.sentences import split
 
 
-def assumptions(result: Identification) -> list[str]:
-    """List what was assumed about the robot, the recording and the decisions."""
-    return [*_robot(result), *_recording(result), *_errors(result), *_decisions()]
+def assumptions(result: Identification, notes: Sequence[str]) -> list[str]:
+    """List what was assumed about the robot, the recording and the decisions.
+
+    notes: what was noticed while the recording was read.
+    """
+    return [*_robot(result), *_recording(result, notes), *_errors(result), *_decisions()]
 
 
 def _robot(result: Identification) -> list[str]:
@@ -26,7 +31,7 @@ def _robot(result: Identification) -> list[str]:
     ]
 
 
-def _recording(result: Identification) -> list[str]:
+def _recording(result: Identification, notes: Sequence[str]) -> list[str]:
     rates = [1.0 / median_interval(run.time) for run in result.comparisons]
     at = f' It was used at {_listed(rates)} Hz.' if rates else ''
     return [
@@ -34,6 +39,7 @@ def _recording(result: Identification) -> list[str]:
         'held until the next one.',
         'Forces and odometry are stamped by one clock, when they were measured; time counts from '
         'the start of each run.',
+        *notes,
         *remarks(result),
         f'Odometry faster than {stretches.HIGHEST_RATE:g} Hz is averaged down.{at}',
         f'Left out as start-up: the first {stretches.SETTLING:g} s of what was fitted.',

@@ -10,13 +10,17 @@ from diffbot_sim import __version__
 
 @dataclass(frozen=True)
 class Origin:
-    """Bags, as they were named, the parameter file, the day and the version."""
+    """Bags, as they were named, the parameter file, the day and the version.
+
+    notes: what was noticed while the bags were read.
+    """
 
     bags: tuple[str, ...]
     validate: tuple[str, ...]
     params: str
     day: str
     version: str
+    notes: tuple[str, ...] = ()
 
     @property
     def words(self) -> str:
@@ -28,7 +32,10 @@ class Origin:
         )
 
 
-def origin_of(bags: Sequence[Path], validate: Sequence[Path], params: Path) -> Origin:
+def origin_of(
+    bags: Sequence[Path], validate: Sequence[Path], params: Path, notes: Sequence[str]
+) -> Origin:
     """Return the origin of what is told today."""
     learned, judged = (tuple(map(str, paths)) for paths in (bags, validate))
-    return Origin(learned, judged, str(params), date.today().isoformat(), __version__)
+    today = date.today().isoformat()
+    return Origin(learned, judged, str(params), today, __version__, tuple(notes))

@@ -66,7 +66,7 @@ def page_text(result: Identification, origin: Origin) -> str:
             kept=rows.kept_rows(result),
             candidates=[rows.candidate_row(candidate) for candidate in result.candidates],
             ranking=figures.candidates_figure(result),
-            assumptions=assumptions(result),
+            assumptions=assumptions(result, origin.notes),
             colours=COLOURS,
             labels=[LABELS[key] for key in MODELS],
             plotly=Markup(get_plotlyjs()),

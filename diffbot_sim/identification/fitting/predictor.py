@@ -18,7 +18,7 @@ from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.recordings.unheard import Unheard, all_heard
 from diffbot_sim.physics.compiled import entry
 from diffbot_sim.physics.composition import compose
-from diffbot_sim.physics.correction import correct
+from diffbot_sim.physics.correction import correct, put
 from diffbot_sim.physics.dynamics import ARRAY, FUNCTION_TYPES, INTEGERS, MATRIX, Dynamics
 from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.encoders import measured
@@ -40,6 +40,8 @@ from diffbot_sim.records import Array
 
 # In this time [s] wheels come to where they are measured to stand: noise of that is smoothed.
 ROLLED = 0.5
+# An error that counts so little tells how a robot moves of which it is not known whether it does.
+UNKNOWN = 0.5
 # Gains: of speed, of the disturbance, and the disturbance's memory over one second; v, then ω.
 NO_GAIN = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 SPEED, DISTURBANCE, MEMORY = [0, 3], [1, 4], [2, 5]
@@ -85,7 +87,7 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
         stretch.heading,
         np.ascontiguousarray(stretch.way),
         np.ascontiguousarray(gains),
-        counting.taken(gains[SPEED]),
+        counting.taken(gains[SPEED] * at_end(stretch)),
         counting.weight,
         np.ascontiguousarray(stretch.pushes),
         *workspace(),
@@ -93,6 +95,14 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
         snapshots,
     )
     return Prediction(out[:, 0:2], out[:, 2:4], out[:, 4:6], snapshots)
+
+
+def at_end(stretch: Stretch) -> Array:
+    """Return how much larger errors are at the end of an interval than as they are told: (2,).
+
+    What a force did all the while is at the end twice what it is on the mean.
+    """
+    return 1.0 + np.array(stretch.run.odometry.means, dtype=float)
 
 
 def counted(stretch: Stretch, gains: Array) -> Unheard:
@@ -156,14 +166,18 @@ def _predict(  # type: ignore[no-untyped-def]
             )
             interval = time - times[k - 1]
             v, omega = measured(params, means, z, before, interval)
-            # What a force did all the while is at the end twice what it is on the mean.
-            missed_v = (1.0 + means[0]) * (twist[k, 0] - v)
-            missed = (1.0 + means[1]) * (twist[k, 1] - omega)
-            correct(z, modes, params[2], taken[k, 0] * missed_v, taken[k, 1] * missed)
-            told_v, told = weight[k, 0] * missed_v, weight[k, 1] * missed
-            pushing = gains[2] ** interval * pushing + gains[1] * params[0] / interval * told_v
-            turning = gains[5] ** interval * turning + gains[4] * params[1] / interval * told
-            out[k, 0], out[k, 1] = told_v / (1.0 + means[0]), told / (1.0 + means[1])
+            missed_v, missed = twist[k, 0] - v, twist[k, 1] - omega
+            by_v, by_omega = taken[k, 0] * missed_v, taken[k, 1] * missed
+            if min(weight[k, 0], weight[k, 1]) < UNKNOWN:
+                put(z, modes, params[2], by_v, by_omega)
+            else:
+                correct(z, modes, params[2], by_v, by_omega)
+            out[k, 0], out[k, 1] = weight[k, 0] * missed_v, weight[k, 1] * missed
+            error_v, error_omega = (1.0 + means[0]) * out[k, 0], (1.0 + means[1]) * out[k, 1]
+            pushing = gains[2] ** interval * pushing + gains[1] * params[0] / interval * error_v
+            turning = (
+                gains[5] ** interval * turning + gains[4] * params[1] / interval * error_omega
+            )
             roll(params, z, way[k, 0], way[k, 1], 1.0 - exp(-interval / ROLLED))
         z[HEADING] = heading[k]
         out[k, 2], out[k, 3] = twist_of(params, z)

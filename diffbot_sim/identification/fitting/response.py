@@ -11,7 +11,13 @@ import numpy as np
 from numba import types
 
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.fitting.predictor import DISTURBANCE, MEMORY, SPEED, counted
+from diffbot_sim.identification.fitting.predictor import (
+    DISTURBANCE,
+    MEMORY,
+    SPEED,
+    at_end,
+    counted,
+)
 from diffbot_sim.identification.fitting.steps import Steps
 from diffbot_sim.identification.recordings.stretches import Stretch, largest_command
 from diffbot_sim.identification.statistics.parallel import each
@@ -79,10 +85,9 @@ def response(model: Model, stretch: Stretch, gains: Array, force: float) -> Resp
     sizes = np.concatenate([push * stretch.interval / body, push])
     slopes = np.stack([steps.slope(by) for by in np.diag(sizes)], axis=-1)
     intervals = np.diff(stretch.time, prepend=stretch.time[0] - stretch.interval)[:, None]
-    at_end = 1.0 + np.array(stretch.run.odometry.means, dtype=float)
-    gain = gains[DISTURBANCE] * at_end * body / intervals
+    gain = gains[DISTURBANCE] * at_end(stretch) * body / intervals
     counting = counted(stretch, gains)
-    taken = counting.taken(gains[SPEED]) * at_end
+    taken = counting.taken(gains[SPEED] * at_end(stretch))
     return Response(slopes, counting.weight, taken, gain, gains[MEMORY] ** intervals)
 
 

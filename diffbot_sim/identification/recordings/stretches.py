@@ -175,7 +175,7 @@ def _stretch(run: Run, begin: float, end: float) -> Stretch:
         travelled=float(travelled),
         turned=float(turned),
     )
-    lost = unheard(run.commands, time, twist)
+    lost = unheard(run.commands, time, twist, odometry.means)
     return Stretch(run, time, twist, np.ascontiguousarray(heading), way, pose, start, used, lost)
 
 

@@ -17,15 +17,16 @@ from diffbot_sim.records import Array, Commands
 class Unheard(NamedTuple):
     """How errors of v and ω count after commands that were lost.
 
-    regained, shape (k, 2): the share of each error that is corrected at once; weight, shape
-    (k, 2): what it counts, as it scatters more than others.
+    regained, shape (k, 2): the share of each error by which the speed is corrected at once, above
+    1 where means tell half of a change; weight, shape (k, 2): what it counts, as it scatters more
+    than others.
     """
 
     regained: Array
     weight: Array
 
     def taken(self, gains: Array) -> Array:
-        """Return the share of each error that is corrected, gains of v and ω, (2,), included."""
+        """Return the share of each error that is corrected, by gains of v and ω, (2,), as well."""
         return np.asarray(1.0 - (1.0 - gains) * (1.0 - self.regained))
 
 
@@ -34,17 +35,19 @@ def all_heard(count: int) -> Unheard:
     return Unheard(np.zeros((count, 2)), np.ones((count, 2)))
 
 
-def unheard(commands: Commands, time: Array, twist: Array) -> Unheard:
+def unheard(commands: Commands, time: Array, twist: Array, means: tuple[bool, bool]) -> Unheard:
     """Return how the errors count of what was seen of a robot that was commanded."""
     told = all_heard(len(time))
     if commands.unsure is None:
         return told
     noise, variance = white_noise(twist) ** 2, np.zeros(2)
+    seen = np.where(means, 0.5, 1.0)  # of a change of speed in the interval before a sample
     for k, more in enumerate(_variance(commands, commands.unsure, time, twist), start=1):
-        variance = variance + more
-        told.regained[k] = variance / (variance + noise)
-        variance = variance * (1.0 - told.regained[k])
-    return told._replace(weight=np.sqrt(1.0 - told.regained))
+        scatter = variance + seen**2 * more + noise
+        told.regained[k] = (variance + seen * more) / scatter
+        told.weight[k] = np.sqrt(noise / scatter)
+        variance = variance + more - told.regained[k] ** 2 * scatter
+    return told
 
 
 def _variance(commands: Commands, unsure: Array, time: Array, twist: Array) -> Array:
