@@ -75,3 +75,11 @@ def test_ripple_that_gets_out_of_step_stays() -> None:
 def test_nothing_is_held_against_a_name_where_all_is_explained() -> None:
     complete = replace(slope_held_against(-0.02), unexplained=None)
     assert without_worsening(complete) is complete
+
+
+def test_nothing_is_allowed_for_beside_a_name_that_is_withdrawn():
+    allowing = replace(slope_held_against(-0.02), unexplained=None, near_rest=50.0)
+    left = without_worsening(allowing)
+    assert left.names == frozenset()
+    assert left.unexplained is not None
+    assert left.near_rest == 0.0

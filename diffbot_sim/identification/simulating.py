@@ -68,11 +68,12 @@ def is_integrators(found: Found, noise: Array) -> bool:
 
 
 def without_worsening(found: Found) -> Found:
-    """Withdraw names that, beside what is unexplained, make the simulation worse.
+    """Withdraw names that, beside what is unexplained or allowed for, make the simulation worse.
 
-    What acts may look like an effect where it was fitted, and like its contrary elsewhere.
+    What acts may look like an effect where it was fitted, and like its contrary elsewhere. Then
+    nothing is allowed for any more.
     """
-    if found.unexplained is None:
+    if found.unexplained is None and found.near_rest <= 0.0:
         return found
     final = _held_out_errors(found, found.selection.final)
     ratios = {
@@ -85,7 +86,8 @@ def without_worsening(found: Found) -> Found:
     rest = found.selection.withdrawn(worst, found.held_out, WORSENING)
     doubted = doubt(Seen(rest, found.held_out))
     unexplained = doubted.unexplained or found.unexplained
-    return without_worsening(replace(found, selection=doubted.selection, unexplained=unexplained))
+    found = replace(found, selection=doubted.selection, unexplained=unexplained, near_rest=0.0)
+    return without_worsening(found)
 
 
 def _held_out_errors(found: Found, fit: Fit) -> Array:
