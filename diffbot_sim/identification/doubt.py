@@ -10,13 +10,14 @@ from diffbot_sim.identification.free_forms.bases import again
 from diffbot_sim.identification.free_forms.bursts import bursts, is_small_part_of_bursts
 from diffbot_sim.identification.free_forms.dependence import Dependence, realised, worth_of
 from diffbot_sim.identification.free_forms.drifting import is_of_drift
+from diffbot_sim.identification.free_forms.limit import TABLES, of_another_law
 from diffbot_sim.identification.free_forms.moments import pushed, standing_out
 from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.identification.free_forms.oscillating import oscillating
 from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
 from diffbot_sim.identification.free_forms.structure import dependences, describe, find_dependences
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.result import Structure
+from diffbot_sim.identification.result import LIMIT, Structure
 from diffbot_sim.identification.selection.evidence import delta_bic
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.stepwise import Selection
@@ -98,17 +99,20 @@ def doubt(seen: Seen, look: Look = Seen) -> Doubted:
     """Withdraw names that do not stand up to a free-form force; return what is left unnamed.
 
     So goes a name that nothing needs as it is looked at, one that a free form outdoes, the weakest
-    where one free form outdoes all together, and a name whose law leaves much of what it is about,
-    or explains little beside that.
+    where one free form outdoes all together, a limit of another law, and a name whose law leaves
+    much of what it is about, or explains little beside that.
     look: how what is left is looked at, as it is unless given.
     """
-    name, left = _needless_name(seen) or _outdone_name(seen) or _left_over(seen)
+    name, left = (
+        _needless_name(seen) or _outdone_name(seen) or _other_limit(seen) or _left_over(seen)
+    )
     selection, held_out, *_ = seen.strict or seen
     if not name:
         return Doubted(selection, left, seen.near_rest)
     doubted = doubt(look(selection.withdrawn(name, held_out, OUTDONE), held_out), look)
-    # There is structure, if only what the name went for.
-    return doubted._replace(unexplained=doubted.unexplained or left)
+    # There is structure, if only what the name went for; a limit says more than a part of it.
+    told = left if left and left.variable == LIMIT else doubted.unexplained or left
+    return doubted._replace(unexplained=told)
 
 
 def _needless_name(seen: Seen) -> Objection | None:
@@ -131,6 +135,17 @@ def _outdone_name(seen: Seen) -> Objection | None:
         better = _outdone(selection.base, final, final.space.kinds)
         if better is not None:
             return weakest(selection)[1], describe(better, final)
+    return None
+
+
+def _other_limit(seen: Seen) -> Objection | None:
+    """Return a limit that changes with speed in another way than its name says."""
+    selection = seen.selection
+    for kind in selection.final.space.kinds:
+        if kind in TABLES:
+            left = of_another_law(kind, selection.without[kind.name], selection.final)
+            if left is not None:
+                return kind.name, left
     return None
 
 

@@ -6,6 +6,7 @@ from typing import Literal
 import numpy as np
 
 from diffbot_sim.physics.effects.empirical_force import EmpiricalForce
+from diffbot_sim.physics.effects.empirical_limit import EmpiricalLimit
 from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForce
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array, Trajectory
@@ -15,6 +16,8 @@ EFFECTS_FOUND = 'effects_found'
 UNEXPLAINED = 'unexplained'
 # What is contradicted where the declared law of friction is too simple, beside names of effects.
 LAW = 'friction.model'
+# The variable of a structure that is a limit of the wheels' force over their speed.
+LIMIT = 'limit'
 
 
 @dataclass(frozen=True)
@@ -243,7 +246,7 @@ class Identification:
     identified: Model
     comparisons: tuple[Comparison, ...]
     advice: tuple[str, ...] = ()
-    empirical: EmpiricalForce | EmpiricalWheelForce | None = None
+    empirical: EmpiricalForce | EmpiricalLimit | EmpiricalWheelForce | None = None
     horizons: tuple[Horizon, ...] = ()
     runs: tuple[RunCheck, ...] = ()
     timings: tuple[Timing, ...] = ()

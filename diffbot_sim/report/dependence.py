@@ -93,6 +93,7 @@ STRUCTURE_LABELS = {
     'drive': 'force that drives a wheel, or brakes it [N]',
     'force_over_speed': 'speed of a wheel, either way [m/s]',
     'force_over_power': 'power asked of a wheel, or, below zero, taken [W]',
+    'limit': 'speed of a wheel, the way that the force drives it [m/s]',
     'force_change': 'age of the command [s]',
     'past_force': 'age of the command [s]',
     'force_over_time': 'time [s]',

@@ -8,13 +8,14 @@ import numpy as np
 from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
 from diffbot_sim.identification.recordings.free_running import free_running_error
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.result import Structure
+from diffbot_sim.identification.result import LIMIT, Structure
 from diffbot_sim.physics.effects import empirical_force, empirical_wheel_force
 from diffbot_sim.physics.effects.empirical_force import POINT_NAMES, POINTS, EmpiricalForce
+from diffbot_sim.physics.effects.empirical_limit import EmpiricalLimit
 from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForce
 from diffbot_sim.physics.model import Model
 
-Table = EmpiricalForce | EmpiricalWheelForce
+Table = EmpiricalForce | EmpiricalWheelForce | EmpiricalLimit
 # What the table of a structure runs over, where that is not the structure's own variable.
 TABLE_OF = {'constant': 'time', 'rolling': 'wheel_speed', 'turning': 'omega'}
 # The term is kept when it lowers the held-out error, v and ω together, by this share.
@@ -48,6 +49,8 @@ def term_in(model: Model, structure: Structure) -> Table | None:
 
 def _table_of(structure: Structure) -> Table | None:
     """Return the curve of a structure as a table that the simulator runs, if there is such one."""
+    if structure.variable == LIMIT:
+        return EmpiricalLimit(float(structure.knots[-1]), *map(float, structure.force))
     axis, variable = structure.axis, TABLE_OF.get(structure.variable, structure.variable)
     if axis in empirical_force.AXES and variable in empirical_force.VARIABLES:
         return EmpiricalForce(axis, variable, *_points(structure))
@@ -61,6 +64,8 @@ def _added(table: Table, declared: Model) -> Table | None:
     there = next((it for it in declared.effects if isinstance(it, type(table))), None)
     if there is None:
         return table
+    if isinstance(there, EmpiricalLimit) or isinstance(table, EmpiricalLimit):
+        return None  # limits do not add up
     if not _is_alike(there, table):
         return None
     both = (there, table)
@@ -71,7 +76,14 @@ def _added(table: Table, declared: Model) -> Table | None:
 
 
 def _is_alike(one: Table, other: Table) -> bool:
-    return (one.name, one.axis, one.variable) == (other.name, other.axis, other.variable)
+    """Say whether two tables run over the same."""
+    return _subject(one) == _subject(other)
+
+
+def _subject(table: Table) -> tuple[str, ...]:
+    if isinstance(table, EmpiricalLimit):
+        return (table.name,)
+    return table.name, table.axis, table.variable
 
 
 def _points(structure: Structure) -> list[float]:

@@ -20,12 +20,18 @@ LEAST_BEND = 12.0
 
 
 @compiled
+def bend_at(speed: float) -> float:
+    """Return how sharply a limit bends a force at a speed."""
+    return hypot(LEAST_BEND, speed / CORNER)
+
+
+@compiled
 def weakened(force: float, speed: float, driving: float, braking: float) -> float:
     """Return a force [N] that does, or takes, hardly more work than these limits [W]."""
     if speed == 0.0:
         return force
     limit = driving if force * speed > 0.0 else braking
-    return nearly_within(force, limit / abs(speed), hypot(LEAST_BEND, speed / CORNER))
+    return nearly_within(force, limit / abs(speed), bend_at(speed))
 
 
 @compiled
