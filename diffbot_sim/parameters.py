@@ -72,6 +72,19 @@ def parameter(
     return field(default=default, metadata={'parameter': facts})
 
 
+def largest(endless: float, *, unit: str, meaning: str, scale: float = 10.0) -> Any:
+    """Declare a dataclass field that is a limit, so large that it is none unless given."""
+    return parameter(
+        endless,
+        unit=unit,
+        meaning=meaning,
+        low=1e-3,
+        high=endless,
+        scale=scale,
+        reciprocal=True,
+    )
+
+
 def specs(kind: Any) -> tuple[Spec, ...]:
     """List the parameters of a dataclass (or of an instance) in the order of its fields."""
     return _declared(kind if isinstance(kind, type) else type(kind))

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from diffbot_sim.parameters import parameter
+from diffbot_sim.parameters import largest
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.effects.effect import Effect, Excitation
 from diffbot_sim.physics.stages import Motion, Stage, Traction, within
@@ -29,15 +29,7 @@ class ActuatorSaturation(Effect):
     guesses = ((8.0,), (4.0,))
     excitation = 'commands from weak to the strongest that the driver takes'
 
-    limit: float = parameter(
-        1e6,
-        unit='N',
-        low=1e-3,
-        high=1e6,
-        scale=10.0,
-        reciprocal=True,
-        meaning='largest force on a wheel',
-    )
+    limit: float = largest(1e6, unit='N', meaning='largest force on a wheel')
 
     @classmethod
     def starts(cls, drive: Excitation) -> tuple[tuple[float, ...], ...]:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
-from diffbot_sim.parameters import parameter
+from diffbot_sim.parameters import largest, parameter
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.effects.effect import Effect
 from diffbot_sim.physics.effects.power_limit import bend_at
@@ -69,15 +69,8 @@ def limited_widely(at, traction, end, *points):  # type: ignore[no-untyped-def]
 
 def point(share: float) -> Any:
     """Declare a point of the table [N]."""
-    return parameter(
-        UNLIMITED,
-        unit='N',
-        low=1e-3,
-        high=UNLIMITED,
-        scale=10.0,
-        reciprocal=True,
-        meaning=f'largest force of a wheel that turns at {share:.0%} of speed, with it',
-    )
+    meaning = f'largest force of a wheel that turns at {share:.0%} of speed, with it'
+    return largest(UNLIMITED, unit='N', meaning=meaning)
 
 
 @dataclass(frozen=True)

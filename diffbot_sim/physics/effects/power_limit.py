@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from math import hypot
 
-from diffbot_sim.parameters import parameter
+from diffbot_sim.parameters import largest
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.effects.effect import Effect, Excitation
 from diffbot_sim.physics.stages import Motion, Stage, Traction, nearly_within
@@ -30,8 +30,8 @@ def weakened(force: float, speed: float, driving: float, braking: float) -> floa
     """Return a force [N] that does, or takes, hardly more work than these limits [W]."""
     if speed == 0.0:
         return force
-    limit = driving if force * speed > 0.0 else braking
-    return nearly_within(force, limit / abs(speed), bend_at(speed))
+    power = driving if force * speed > 0.0 else braking
+    return nearly_within(force, power / abs(speed), bend_at(speed))
 
 
 @compiled
@@ -41,20 +41,6 @@ def limited(at: Motion, traction: Traction, driving: float, braking: float) -> T
         weakened(traction.right, at.speed_right, driving, braking),
         weakened(traction.left, at.speed_left, driving, braking),
     )
-
-
-def largest_power(meaning: str) -> float:
-    """Declare a limit of power [W]."""
-    value: float = parameter(
-        UNLIMITED,
-        unit='W',
-        low=1e-3,
-        high=UNLIMITED,
-        scale=10.0,
-        reciprocal=True,
-        meaning=meaning,
-    )
-    return value
 
 
 @dataclass(frozen=True)
@@ -73,8 +59,10 @@ class PowerLimit(Effect):
     guesses = ((10.0, UNLIMITED), (3.0, 3.0))
     excitation = 'the strongest commands, held until it is fast, and against its motion'
 
-    power: float = largest_power('largest power P of a wheel that drives')
-    braking_power: float = largest_power('largest power P_b of a wheel that brakes')
+    power: float = largest(UNLIMITED, unit='W', meaning='largest power P of a wheel that drives')
+    braking_power: float = largest(
+        UNLIMITED, unit='W', meaning='largest power P_b of a wheel that brakes'
+    )
 
     @classmethod
     def starts(cls, drive: Excitation) -> tuple[tuple[float, ...], ...]:

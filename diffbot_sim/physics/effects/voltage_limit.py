@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from itertools import product
 
-from diffbot_sim.parameters import parameter
+from diffbot_sim.parameters import largest, parameter
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.effects.effect import Effect, Excitation
 from diffbot_sim.physics.stages import FAR_BELOW, Motion, Stage, Traction, nearly_within
@@ -57,23 +57,9 @@ class VoltageLimit(Effect):
     essential = ('no_load_speed',)
     excitation = 'the strongest commands, from rest until it is fast, and against its motion'
 
-    stall_force: float = parameter(
-        1e9,
-        unit='N',
-        low=1e-3,
-        high=1e9,
-        scale=10.0,
-        reciprocal=True,
-        meaning='largest force of a wheel at rest',
-    )
-    no_load_speed: float = parameter(
-        1e9,
-        unit='m/s',
-        low=1e-3,
-        high=1e9,
-        scale=1.0,
-        reciprocal=True,
-        meaning='speed at which nothing is left of it',
+    stall_force: float = largest(1e9, unit='N', meaning='largest force of a wheel at rest')
+    no_load_speed: float = largest(
+        1e9, unit='m/s', scale=1.0, meaning='speed at which nothing is left of it'
     )
     braking: float = parameter(
         0.0,
