@@ -53,6 +53,13 @@ def test_impulse_is_as_unsure_as_the_step_over_the_time_that_nobody_heard():
     assert impulse == pytest.approx((3.0 * 2 * TICK * 1e-9) ** 2)
 
 
+def test_forces_that_are_late_are_not_lost():
+    ticks = np.arange(100.0)
+    ticks[20:80:10] += [0.4, 0.5, 0.6, 0.9, 0.95, 1.0 - 1e-6]
+    stamps = (START + TICK * ticks).astype(np.int64)
+    assert not lost(Ordered(LEFT, stamps, ticks[:, None], 0, 0, 0)).any()
+
+
 def test_force_that_is_held_through_a_silence_is_as_unsure_as_any():
     ticks = np.delete(np.arange(200), np.arange(20, 90))
     found = with_lost(forces(ticks, ticks % 7))

@@ -51,6 +51,12 @@ def test_speed_is_told_by_more_samples_the_longer_ago_a_command_was_lost():
     assert after[50] == pytest.approx([1.0 / 52.0] * 2, rel=0.1)
 
 
+def test_errors_of_odometry_without_noise_count_where_nothing_was_lost():
+    still = unheard(LOST.commands, TIME, np.zeros((COUNT, 2)), NOW)
+    assert np.all(still.weight[: AT[0]] == 1.0)
+    assert np.all(np.isfinite(still.regained))
+
+
 def test_errors_before_the_first_loss_count_in_full():
     regained, weight = unheard(LOST.commands, TIME, LOST.odometry.twist, NOW)
     assert not regained[: AT[0]].any()

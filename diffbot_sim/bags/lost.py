@@ -15,8 +15,8 @@ from diffbot_sim.records import Array
 
 # A topic comes at a steady rate if nine in ten of its intervals are whole numbers of the usual
 # one, within such a share of it, and few messages are missing from it. A slower one [ns] may be
-# sent when forces change.
-STEADY, WITHIN, FEW = 0.9, 0.25, 0.25
+# sent when forces change. What the next message follows sooner than half an interval was late.
+STEADY, WITHIN, FEW, SOON = 0.9, 0.25, 0.25, 0.5
 SLOWEST = NANOSECONDS // 5
 # The median of a normal variable's size is this share of its deviation.
 MEDIAN = 0.6745
@@ -38,18 +38,31 @@ def lost(force: Ordered) -> NDArray[np.int64]:
 
 def _is_steady(force: Ordered) -> bool:
     """Say whether a topic comes at a steady rate."""
-    steps, usual = np.diff(force.stamp), usual_interval(force)
-    if usual > SLOWEST:
+    if usual_interval(force) > SLOWEST:
         return False
-    is_even = np.abs(steps / usual - np.rint(steps / usual)) < WITHIN
-    return bool(is_even.mean() >= STEADY and _skipped(force).sum() < FEW * len(steps))
+    is_few = _skipped(force).sum() < FEW * len(force.stamp)
+    return bool(_is_even(_steps(force)).mean() >= STEADY and is_few)
+
+
+def _steps(force: Ordered) -> Array:
+    """Return the usual intervals that pass after each message, shape (n,), one after the last."""
+    return np.append(np.diff(force.stamp) / usual_interval(force), 1.0)
+
+
+def _is_even(steps: Array) -> NDArray[np.bool_]:
+    return np.asarray(np.abs(steps - np.rint(steps)) < WITHIN)
 
 
 def _skipped(force: Ordered) -> NDArray[np.int64]:
-    """Return how many usual intervals passed after each message without one, but for silences."""
-    steps = np.diff(force.stamp, append=force.stamp[-1:])
-    skipped = np.maximum(np.rint(steps / usual_interval(force)) - 1.0, 0.0)
-    return np.where(steps < silence(force), skipped, 0.0).astype(np.int64)
+    """Return how many usual intervals passed after each message without one, but for silences.
+
+    A message that is late is not missing.
+    """
+    steps = _steps(force)
+    is_late = np.append(steps[1:], 1.0) < SOON
+    is_short = steps * usual_interval(force) < silence(force)
+    skipped = np.maximum(np.rint(steps) - 1.0, 0.0)
+    return np.where(_is_even(steps) & is_short & ~is_late, skipped, 0.0).astype(np.int64)
 
 
 def _with_single(force: Ordered) -> Ordered:

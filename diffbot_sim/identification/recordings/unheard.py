@@ -13,6 +13,9 @@ from diffbot_sim.identification.recordings.acting import added_up
 from diffbot_sim.identification.statistics.norms import white_noise
 from diffbot_sim.records import Array, Commands
 
+# A noise [m/s, rad/s] that is as good as none.
+TINY = 1e-9
+
 
 class Unheard(NamedTuple):
     """How errors of v and ω count after commands that were lost.
@@ -40,7 +43,7 @@ def unheard(commands: Commands, time: Array, twist: Array, means: tuple[bool, bo
     told = all_heard(len(time))
     if commands.unsure is None:
         return told
-    noise, variance = white_noise(twist) ** 2, np.zeros(2)
+    noise, variance = np.maximum(white_noise(twist), TINY) ** 2, np.zeros(2)
     seen = np.where(means, 0.5, 1.0)  # of a change of speed in the interval before a sample
     for k, more in enumerate(_variance(commands, commands.unsure, time, twist), start=1):
         scatter = variance + seen**2 * more + noise
