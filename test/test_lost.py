@@ -96,3 +96,12 @@ def test_what_was_lost_is_told(tmp_path):
     found = read_run(tmp_path / 'drive')
     assert '4 messages of /left_wheel/force are missing, of 100' in found.notes[0]
     assert np.flatnonzero(found.run.commands.unsure[:, 1]).tolist() == [20, 30, 40, 50]
+
+
+@given(st.integers(0, 1000))
+def test_stamps_that_jitter_hide_no_loss(seed):
+    jitter = np.random.default_rng(seed).uniform(-0.15, 0.15, 98)
+    ticks = np.delete(np.arange(100.0), [10, 50]) + jitter
+    stamps = (START + TICK * ticks).astype(np.int64)
+    missing = lost(Ordered(LEFT, stamps, ticks[:, None], 0, 0, 0))
+    assert np.flatnonzero(missing).tolist() == [9, 48]

@@ -16,7 +16,7 @@ from diffbot_sim.records import Array
 # A topic comes at a steady rate if nine in ten of its intervals are whole numbers of the usual
 # one, within such a share of it, and few messages are missing from it. A slower one [ns] may be
 # sent when forces change. What the next message follows sooner than half an interval was late.
-STEADY, WITHIN, FEW, SOON = 0.9, 0.25, 0.25, 0.5
+STEADY, WITHIN, FEW, SOON = 0.9, 0.35, 0.25, 0.5
 SLOWEST = NANOSECONDS // 5
 # The median of a normal variable's size is this share of its deviation.
 MEDIAN = 0.6745
