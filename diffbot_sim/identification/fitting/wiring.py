@@ -9,6 +9,7 @@ from scipy.signal import correlate, correlation_lags
 
 from diffbot_sim.identification.fitting.calibration import simulation_errors
 from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.fit import WORST
 from diffbot_sim.identification.fitting.predictor import NO_GAIN, predict
 from diffbot_sim.identification.recordings.acting import acted_before
 from diffbot_sim.identification.recordings.recordings import Recordings
@@ -121,7 +122,9 @@ def _set_right(run: Run, late: Mapping[str, float]) -> Run:
 
 def _lateness(stretch: Stretch, space: Space) -> float:
     """Return by how much what was measured comes after what is simulated [s]."""
-    simulated = stretch.twist - predict(space.model(space.prior()), stretch, NO_GAIN).innovation
+    missed = predict(space.model(space.prior()), stretch, NO_GAIN).innovation
+    # Numbers in another unit may move a robot faster than can be squared.
+    simulated = stretch.twist - np.clip(missed, -WORST, WORST)
     time = np.arange(stretch.time[0], stretch.time[-1], INTERVAL)
     measured, told = (_levelled(time, stretch.time, x) for x in (stretch.twist, simulated))
     alike = sum(correlate(m, t) for m, t in zip(measured, told, strict=True))
