@@ -21,11 +21,8 @@ def body_twist(
     return v, omega
 
 
-def wheel_speeds(v: Number, omega: Number, half_separation: float) -> tuple[Number, Number]:
-    """Return the wheel speeds [m/s], right and left: the inverse of (2) and (4).
-
-    Single numbers or arrays.
-    """
+def wheel_speeds(v: float, omega: float, half_separation: float) -> tuple[float, float]:
+    """Return the wheel speeds [m/s], right and left: the inverse of (2) and (4)."""
     return v + half_separation * omega, v - half_separation * omega
 
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
-from diffbot_sim.identification.fitting.views import commanded
-from diffbot_sim.identification.recordings.stretches import Stretch, largest_command
+from diffbot_sim.identification.fitting.views import View, views
+from diffbot_sim.identification.recordings.stretches import largest_command
 from diffbot_sim.identification.result import LIMIT, Structure
 from diffbot_sim.identification.selection.evidence import delta_bic, wald
 from diffbot_sim.identification.selection.rivals import is_told_apart
@@ -23,7 +23,6 @@ from diffbot_sim.physics.effects.empirical_limit import (
 )
 from diffbot_sim.physics.effects.power_limit import PowerLimit
 from diffbot_sim.physics.effects.voltage_limit import VoltageLimit
-from diffbot_sim.physics.kinematics import wheel_speeds
 from diffbot_sim.physics.stages import Motion, Traction
 from diffbot_sim.records import Array
 
@@ -50,15 +49,15 @@ def of_another_law(kind: type[Effect], rest: Fit, final: Fit) -> Structure | Non
     rest: the fit that lacks the name, final: the one that has it. A table needs more numbers than
     any law: it is believed where it lowers the BIC all the same, beyond doubt.
     """
-    named = fit_prediction(final.space, final.stretches, final.u, final.gains)
-    free = _without_law(kind, named)
-    return _described(free, delta_bic(rest, free)) if is_told_apart(named, free) else None
+    free = _without_law(kind, final)
+    return _described(free, delta_bic(rest, free)) if is_told_apart(final, free) else None
 
 
 def _without_law(kind: type[Effect], named: Fit) -> Fit:
     """Fit a table in the place of a law, from where that lies."""
     (law,) = (effect for effect in named.model.effects if isinstance(effect, kind))
-    speed = max(_fastest(stretch, named.model.half_separation) for stretch in named.stretches)
+    seen = views(named, named.stretches)
+    speed = max(float(np.abs(view.wheel_speed).max()) for view in seen)
     limits = [_limit_of(law, share * speed) for share in PLACES]
     others = tuple(other for other in named.space.kinds if other is not kind)
     start = np.delete(named.u, named.space.places(kind.name))
@@ -68,12 +67,6 @@ def _without_law(kind: type[Effect], named: Fit) -> Fit:
         np.append(start, point_of(EmpiricalLimit, (speed, *limits))),
         named.gains,
     )
-
-
-def _fastest(stretch: Stretch, half_separation: float) -> float:
-    """Return the largest speed of a wheel [m/s]."""
-    v, omega = stretch.twist.T
-    return float(np.abs(wheel_speeds(v, omega, half_separation)).max())
 
 
 def _limit_of(law: Effect, speed: float) -> float:
@@ -89,7 +82,8 @@ def _described(free: Fit, worth: float) -> Structure:
     reach = OUT_OF_REACH * largest_command(free.stretches)
     knots, force = speed * np.array(PLACES), np.minimum(limits, reach)
     end, *points = free.space.places(EmpiricalLimit.name)
-    taken = np.concatenate([_taken(stretch, free, knots, force) for stretch in free.stretches])
+    seen = views(free, free.stretches)
+    taken = np.concatenate([_taken(view, knots, force) for view in seen])
     lowest = int(np.where(knots > 0.0, force, np.inf).argmin())
     return Structure(
         description=(
@@ -107,13 +101,10 @@ def _described(free: Fit, worth: float) -> Structure:
     )
 
 
-def _taken(stretch: Stretch, free: Fit, knots: Array, force: Array) -> Array:
+def _taken(view: View, knots: Array, force: Array) -> Array:
     """Return by how much a limit is below what was commanded [N], shape (k, 2)."""
-    asked = commanded(stretch)
-    v, omega = stretch.twist.T
-    speeds = np.column_stack(wheel_speeds(v, omega, free.model.half_separation))
-    allowed = 1.0 / np.interp(np.sign(asked) * speeds, knots, 1.0 / force)
-    return np.asarray(np.maximum(np.abs(asked) - allowed, 0.0))
+    allowed = 1.0 / np.interp(np.sign(view.force) * view.wheel_speed, knots, 1.0 / force)
+    return np.asarray(np.maximum(np.abs(view.force) - allowed, 0.0))
 
 
 def _errors(free: Fit, points: Sequence[int], force: Array) -> Array:
