@@ -136,6 +136,18 @@ def test_the_space_bar_pauses_and_resumes(bag, robot):
         robot.until(lambda: len(heard) > before + 5)
 
 
+def test_a_dot_at_the_end_plays_the_first_message_by_itself(bag, robot):
+    words = ('--start-offset', '0.98', '--loop', '--rate', '0.01')  # two messages, 1 s apart
+    heard = robot.heard['odom']
+    with terminal(robot, str(bag), *ODOM, *words) as replay:
+        replay.press(' ')
+        for _ in range(3):
+            before = settled(robot, lambda: len(heard))
+            replay.press('.')
+            robot.until(lambda before=before: len(heard) > before)
+            assert settled(robot, lambda: len(heard)) == before + 1
+
+
 def test_the_clock_stands_still_while_paused(bag, robot):
     with terminal(robot, str(bag), *ODOM, '--loop', '--rate', '0.2', '--clock') as replay:
         robot.listen(Clock, '/clock')

@@ -37,8 +37,8 @@ class Transport:
             yield
 
     def start_at(self, stamp: int) -> None:
-        """Jump to a recorded moment [ns]."""
-        self._head.jump(stamp)
+        """Jump to a recorded moment [ns], and while paused to just before it: it is not due."""
+        self._head.jump(stamp - 1 if self._head.is_paused else stamp)
         self._tell_time()
 
     def wait_for(self, stamp: int) -> None:
