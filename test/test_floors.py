@@ -34,7 +34,7 @@ STOREYS: list[set[str]] = [
     {'selection'},
     {'free_forms', 'conclusions', 'suspicion', 'found', 'leading'},
     {'doubt', 'following', 'older', 'odd_ones', 'later'},
-    {'simulating', 'standing_wheels', 'contradiction'},
+    {'allowing', 'simulating', 'standing_wheels', 'contradiction'},
     {'search'},
     {'questioning'},
     {'identify'},

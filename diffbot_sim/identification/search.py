@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from diffbot_sim.errors import DataError
-from diffbot_sim.identification.doubt import Seen, doubt, with_friction_eased
+from diffbot_sim.identification.allowing import allowing_friction
+from diffbot_sim.identification.doubt import Seen, doubt
 from diffbot_sim.identification.fitting.calibration import calibrate, simulation_error
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filtering import filter_behind, unfiltered
@@ -38,7 +39,6 @@ from diffbot_sim.identification.selection.stepwise import select
 from diffbot_sim.identification.selection.trials import Progress
 from diffbot_sim.identification.simulating import is_integrators, without_worsening
 from diffbot_sim.identification.standing_wheels import standing
-from diffbot_sim.identification.suspicion import SUSPICIOUS
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.effects.wheel_ripple import WheelRipple
 from diffbot_sim.physics.model import Model
@@ -127,29 +127,7 @@ def _settled(found: Found, question: Question) -> Found:
     if found.unexplained is None:
         return found
     question.progress('allowing for friction near rest')
-    eased = _eased(found)
-    if eased is None:
-        return found
-    doubted = doubt(eased, with_friction_eased)
-    # What chance could allow for excuses nothing, nor does what leaves something else to be told.
-    # Nor is excused what is worth more, less what names explain of it that stand only then.
-    support = doubted.selection.support
-    only_then = sum(support[name].delta_bic for name in support.keys() - found.names)
-    least = max(SUSPICIOUS, found.unexplained.worth - only_then)
-    excused = doubted.unexplained is None and doubted.near_rest > least
-    return replace(found, **doubted._asdict()) if excused else found
-
-
-def _eased(found: Found) -> Seen | None:
-    """Look at what was found with friction near rest allowed for; None where that is nothing.
-
-    Where it is nothing, neither beside all names nor beside those that stood, doubt is as it was.
-    """
-    seen = with_friction_eased(found.undoubted, found.held_out)
-    if not seen.strict and found.selection is not found.undoubted:
-        stood = with_friction_eased(found.selection, found.held_out)
-        return seen if stood.strict else None
-    return seen if seen.strict else None
+    return allowing_friction(found)
 
 
 def _timed(recordings: Recordings, question: Question) -> Found:

@@ -46,7 +46,7 @@ SEPARATION = (
 
 NEAR_REST = (
     'Friction near rest is of another form than the declared law, as where wheels creep or yield '
-    'before they slide. That was allowed for: without it, something would seem unexplained.'
+    'before they slide. That was allowed for: without it, more would seem unexplained.'
 )
 
 NOISELESS = (
