@@ -1,5 +1,6 @@
 """Which moment of a recording is now: it runs at a rate, stops and jumps."""
 
+from math import inf
 from time import monotonic
 
 from diffbot_sim.nodes.conversions import NANOSECONDS
@@ -30,5 +31,5 @@ class Playhead:
         self.is_paused = not self.is_paused
 
     def until(self, stamp: int) -> float:
-        """Return how long [s] it takes to reach a recorded moment [ns], were it not paused."""
-        return (stamp - self.now) / NANOSECONDS / self._rate
+        """Return how long [s] it takes to reach a recorded moment [ns]; while paused, no end."""
+        return inf if self.is_paused else (stamp - self.now) / NANOSECONDS / self._rate

@@ -37,19 +37,20 @@ class Transport:
             yield
 
     def start_at(self, stamp: int) -> None:
-        """Jump to a recorded moment [ns], and while paused to just before it: it is not due."""
-        self._head.jump(stamp - 1 if self._head.is_paused else stamp)
+        """Jump to a recorded moment [ns]."""
+        self._head.jump(stamp)
         self._tell_time()
 
     def wait_for(self, stamp: int) -> None:
-        """Let a recorded moment [ns] come; raises ExternalShutdownException at a signal."""
-        self._attend(stamp)
-        while (left := self._head.until(stamp)) > 0.0:
-            spin(self._node, min(left, SOON, self._pace.left(monotonic())))
-            self._attend(stamp)
+        """Let a recorded moment [ns] come; raises ExternalShutdownException at a signal.
 
-    def _attend(self, stamp: int) -> None:
-        """Do what is due; `stamp` [ns] is the next message's."""
+        While paused it comes by a key alone.
+        """
+        while not self._attend(stamp) and (left := self._head.until(stamp)) > 0.0:
+            spin(self._node, min(left, SOON, self._pace.left(monotonic())))
+
+    def _attend(self, stamp: int) -> bool:
+        """Do what is due; say whether a key plays the next message, that of `stamp` [ns]."""
         if not rclpy.ok():
             raise ExternalShutdownException
         if self._pace.due(monotonic())[0]:
@@ -58,8 +59,10 @@ class Transport:
         if key == PAUSE:
             self._head.toggle()
             self._node.get_logger().info('paused' if self._head.is_paused else 'resumed')
-        elif key in NEXT and self._head.is_paused:
+        plays = key in NEXT and self._head.is_paused
+        if plays:
             self._head.jump(stamp)
+        return plays
 
     def _tell_time(self) -> None:
         if self._clock:
