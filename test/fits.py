@@ -8,11 +8,14 @@ from diffbot_sim.identification.fitting.fit import FIRST_GAINS, UNIT, Fit, fit_p
 from diffbot_sim.identification.free_forms.dependence import Dependence
 from diffbot_sim.identification.free_forms.structure import find_dependences
 from diffbot_sim.identification.recordings.stretches import Stretch, split
+from diffbot_sim.identification.selection.evidence import Evidence
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.physics import Model
 from diffbot_sim.records import Array, Commands, Run
 
 SMOOTH, ROUGH = Surroundings(), Surroundings(roughness=0.3)
+# Evidence beyond doubt, of whatever it is said.
+SURE = Evidence(90.0, 0.0, 0.0, 0.1, 0.0, 0.0)
 
 
 def fitted(run: Run, declared: Model | None = None) -> tuple[Fit, tuple[Stretch, ...]]:

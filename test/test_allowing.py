@@ -5,7 +5,7 @@ from functools import cache
 
 import identification_by_hand as by_hand
 import pytest
-from fits import SMOOTH, fitted
+from fits import SMOOTH, SURE, fitted
 
 from diffbot_sim.control.rehearsal import random_forces, rehearse
 from diffbot_sim.identification.allowing import excuses, gives_back
@@ -14,12 +14,10 @@ from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.result import Structure
-from diffbot_sim.identification.selection.evidence import Evidence
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.suspicion import SUSPICIOUS
 from diffbot_sim.physics import Model
 
-SURE = Evidence(90.0, 0.0, 0.0, 0.1, 0.0, 0.0)
 MUCH = 4.0 * SUSPICIOUS
 
 

@@ -6,7 +6,7 @@ from math import nan
 
 import numpy as np
 import pytest
-from fits import acted_otherwise
+from fits import SURE, acted_otherwise
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
@@ -76,9 +76,8 @@ def test_name_that_explains_nothing_as_it_is_looked_at_is_withdrawn() -> None:
     fit, held_out = fitted()
     space = Space(Model(), (QuadraticDrag,))
     needless = replace(fit, space=space, u=space.prior())
-    sure = Evidence(90.0, 0.0, 0.0, 0.1, 0.0, 0.0)
     name = QuadraticDrag.name
-    selection = Selection(fit, needless, (), {name: fit}, {name: sure}, {name: ()})
+    selection = Selection(fit, needless, (), {name: fit}, {name: SURE}, {name: ()})
     doubted = doubt(Seen(selection, held_out))
     assert (doubted.selection.final, doubted.unexplained) == (fit, None)
 

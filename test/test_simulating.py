@@ -5,7 +5,7 @@ from functools import cache
 
 import identification_by_hand as by_hand
 import numpy as np
-from fits import SMOOTH, fitted
+from fits import SMOOTH, SURE, fitted
 
 from diffbot_sim.control.rehearsal import random_forces, rehearse
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
@@ -13,7 +13,6 @@ from diffbot_sim.identification.fitting.fit import FIRST_GAINS, fit_prediction
 from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.recordings.free_running import free_running_error
 from diffbot_sim.identification.recordings.recordings import Recordings
-from diffbot_sim.identification.selection.evidence import Evidence
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import SUPPORTED, WORSENING, Trial
 from diffbot_sim.identification.simulating import WORSE, without_worsening
@@ -23,7 +22,6 @@ from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.physics.effects.wheel_ripple import WheelRipple
 from diffbot_sim.records import Run
 
-SURE = Evidence(90.0, 0.0, 0.0, 0.1, 0.0, 0.0)
 RIPPLE = WheelRipple(order=6.0, right_cos=2.0, left_cos=2.0)
 
 
