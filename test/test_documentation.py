@@ -7,7 +7,9 @@ from pathlib import Path
 import pytest
 from ros_robot import Robot, running
 
-DOCS = Path(__file__).parents[1] / 'docs'
+ROOT = Path(__file__).parents[1]
+DOCS = ROOT / 'docs'
+PAGES = sorted([*ROOT.glob('*.md'), *DOCS.glob('*.md'), *ROOT.glob('benchmarks/*.md')])
 # What every node has from rclpy, and what is there only when asked for.
 OWN = ('parameter_events', 'rosout', '/clock', 'tf')
 NODES = ('simulator', 'pi_controller')
@@ -17,6 +19,22 @@ SPACE = '/documented/'
 def test_the_page_of_parameters_is_the_one_that_the_code_gives():
     page = runpy.run_path(str(DOCS / 'make_parameters.py'))['page']
     assert page() == (DOCS / 'parameters.md').read_text('utf-8')
+
+
+@pytest.mark.parametrize('page', PAGES, ids=[str(page.relative_to(ROOT)) for page in PAGES])
+def test_every_link_to_another_page_leads_somewhere(page):
+    text = page.read_text('utf-8')
+    for link in re.findall(r'\]\((?!https?:)([^)\s]+)\)', text):
+        name, _, anchor = link.partition('#')
+        target = page.parent / name if name else page
+        assert target.exists(), link
+        assert not anchor or anchor in anchors(target.read_text('utf-8')), link
+
+
+def anchors(text):
+    """Return what the headings of a page are called in links to them."""
+    headings = re.findall(r'^#+ (.*)$', text, re.MULTILINE)
+    return {re.sub(r'[^\w\- ]', '', heading.lower()).replace(' ', '-') for heading in headings}
 
 
 @pytest.fixture(scope='module')
