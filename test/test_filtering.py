@@ -15,7 +15,7 @@ from diffbot_sim.identification.fitting.filtering import (
     told_each_sample,
     unfiltered,
 )
-from diffbot_sim.identification.fitting.fit import FIRST_GAINS, fit_prediction
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
 from diffbot_sim.identification.recordings.stretches import split
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
@@ -114,8 +114,25 @@ def test_late_robot_with_coloured_noise_is_not_taken_for_a_filter(memory: float)
     assert 'filter' not in [it.taken for it in answer.timings]
 
 
+def delayed(run: Run, delay: float) -> Fit:
+    """Return a fit of a delay that starts at this one [s]."""
+    space = Space(Model(), (ActuatorDelay,))
+    start = np.append(Space(Model(), ()).prior(), point_of(ActuatorDelay, (delay,)))
+    return fit_prediction(space, split([run])[0], start, FIRST_GAINS)
+
+
 def test_lag_that_nobody_asked_about_is_not_taken_for_a_filter() -> None:
-    run, space = driven((ActuatorLag(0.08),), Surroundings()), Space(Model(), (ActuatorDelay,))
-    start = np.append(Space(Model(), ()).prior(), point_of(ActuatorDelay, (0.08,)))
-    fit = fit_prediction(space, split([run])[0], start, FIRST_GAINS)
-    assert filter_behind(fit) is None
+    run = driven((ActuatorLag(0.08),), Surroundings())
+    assert filter_behind(delayed(run, 0.08)) is None
+
+
+def test_true_pose_denies_a_filter_shorter_than_an_interval() -> None:
+    run = driven((ActuatorDelay(0.008),), Surroundings(), seed=2)
+    assert filter_behind(delayed(run, 0.008)) is None
+
+
+def test_without_a_pose_a_filter_shorter_than_an_interval_is_believed() -> None:
+    run = driven((ActuatorDelay(0.008),), Surroundings(), seed=2)
+    without = replace(run, odometry=replace(run.odometry, pose=None))
+    behind = filter_behind(delayed(without, 0.008))
+    assert behind.time_constant == pytest.approx(0.008, rel=0.1)

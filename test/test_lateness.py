@@ -11,7 +11,13 @@ from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.older import Ages
 from diffbot_sim.identification.recordings.acting import acted_before
-from diffbot_sim.identification.recordings.lateness import filled, lag_behind_pose, timely, timing
+from diffbot_sim.identification.recordings.lateness import (
+    filled,
+    lag_behind_pose,
+    pose_denies_lag,
+    timely,
+    timing,
+)
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
@@ -148,6 +154,19 @@ def without_pose(run: Run) -> Run:
 def posed_by_its_twists(run: Run) -> Run:
     """Return a run whose pose tells nothing but what its twists do."""
     return posed(run, at_both_ends(run.odometry))
+
+
+def test_true_pose_denies_that_twists_of_its_time_are_late() -> None:
+    assert pose_denies_lag(driven(Model()), 0.01)
+
+
+@pytest.mark.parametrize('known', [without_pose, posed_by_its_twists])
+def test_pose_that_knows_no_more_than_twists_denies_nothing(known: Callable[[Run], Run]) -> None:
+    assert not pose_denies_lag(known(driven(Model())), 0.01)
+
+
+def test_pose_does_not_deny_that_means_are_late() -> None:
+    assert not pose_denies_lag(counted(driven(Model()), 1), 0.01)
 
 
 @pytest.mark.parametrize('known', [lambda run: run, without_pose, posed_by_its_twists])

@@ -17,7 +17,11 @@ from scipy.special import exprel
 
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
-from diffbot_sim.identification.recordings.lateness import LATE, LATE_EFFECTS
+from diffbot_sim.identification.recordings.lateness import (
+    LATE,
+    LATE_EFFECTS,
+    pose_denies_lag,
+)
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.guards import VERY_STRONG
@@ -70,7 +74,8 @@ def unfiltered(run: Run, behind: Filter) -> Run:
 def filter_behind(fit: Fit) -> Filter | None:
     """Return a filter that explains more than an effect that is late.
 
-    It need explain only as much as one that is late by less than an interval of the odometry.
+    It need explain only as much as one that is late by less than an interval of the odometry,
+    unless a pose denies that twists are so late.
     None where no effect is late, nothing speaks for a filter, noise of a colour of its own or a
     lag explains more, though no lag was asked about, or twists come in steps as coarse as the
     errors: those were made behind any filter.
@@ -102,7 +107,11 @@ class _Look:
     @property
     def allowed(self) -> float:
         """How much higher the cost may be: what is late by less than an interval is odometry."""
-        return VERY_STRONG if self.near < self.fit.stretches[0].interval else -VERY_STRONG
+        stretches = self.fit.stretches
+        if self.near >= stretches[0].interval:
+            return -VERY_STRONG
+        denied = any(pose_denies_lag(stretch.run, self.near) for stretch in stretches)
+        return -VERY_STRONG if denied else VERY_STRONG
 
     def filter(self, time_constant: float) -> Filter:
         return self.kind(time_constant, self.fit.stretches[0].interval)

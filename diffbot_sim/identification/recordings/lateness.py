@@ -16,7 +16,7 @@ from scipy.stats import wilcoxon
 from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.recordings.smoothing import smoothed_over
 from diffbot_sim.identification.recordings.stretches import averaged
-from diffbot_sim.identification.recordings.way import path_of
+from diffbot_sim.identification.recordings.way import beyond_twists, path_of
 from diffbot_sim.identification.result import Timing
 from diffbot_sim.identification.statistics.norms import rms_of_each, white_noise
 from diffbot_sim.records import Array, Odometry, Run
@@ -134,10 +134,14 @@ def pose_allows_lag(run: Run, of: Components) -> bool:
     if all(seen.means):
         return False
     path = _telling_path(seen)
-    if path is None:
-        return True
-    timely, late = (_errors(seen, path, of, lag) for lag in (0.0, half_interval(run)))
-    return not _surely_less(timely, late)
+    return path is None or not _is_less_late(seen, path, of, half_interval(run))
+
+
+def pose_denies_lag(run: Run, lag: float) -> bool:
+    """Say whether a pose that was not made of the twist tells that it is not so late [s]."""
+    seen = run.odometry
+    path = None if beyond_twists(seen) is None else _telling_path(seen)
+    return path is not None and _is_less_late(seen, path, TWIST, lag)
 
 
 def lateness_of(values: Mapping[str, float]) -> float:
@@ -200,6 +204,12 @@ def _errors(odometry: Odometry, path: Array, of: Components, lag: float) -> Arra
     after, before = (_smoothed(told, at + side, interval) for side in (interval, -interval))
     moved = after - before
     return np.asarray(odometry.twist[inner][:, of] - moved[:, 1:] / moved[:, :1])
+
+
+def _is_less_late(odometry: Odometry, path: Array, of: Components, lag: float) -> bool:
+    """Say whether a path tells that twists are of its time rather than so late [s]."""
+    timely, late = (_errors(odometry, path, of, by) for by in (0.0, lag))
+    return _surely_less(timely, late)
 
 
 def _cost(errors: Array) -> float:

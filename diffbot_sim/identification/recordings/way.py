@@ -28,15 +28,22 @@ def measured_way(odometry: Odometry) -> Array:
 
     As the twist adds up, or as the pose tells where that knows more.
     """
-    rates = zip(odometry.twist.T, odometry.means, strict=True)
-    added = np.column_stack([_added_up(odometry.time, rate, mean) for rate, mean in rates])
+    added, beyond = _sum_of_twists(odometry), beyond_twists(odometry)
+    return added if beyond is None else added + beyond
+
+
+def beyond_twists(odometry: Odometry) -> Array | None:
+    """Return way [m] and turn [rad] that a pose tells beyond the sum of the twists, shape (k, 2).
+
+    None where there is no pose, it was made of the twists, or it knows less than they do.
+    """
     if odometry.pose is None:
-        return added
-    told = path_of(odometry.pose)
-    smooth = _samples(odometry, SMOOTH)
-    beyond = uniform_filter1d(told - told[0] - added, smooth, axis=0, mode='nearest')
+        return None
+    told, smooth = path_of(odometry.pose), _samples(odometry, SMOOTH)
+    missed = told - told[0] - _sum_of_twists(odometry)
+    beyond = uniform_filter1d(missed, smooth, axis=0, mode='nearest')
     beyond -= beyond[0]
-    return added + beyond if _knows_more(odometry, odometry.pose, beyond) else added
+    return beyond if _knows_more(odometry, odometry.pose, beyond) else None
 
 
 def measured_heading(odometry: Odometry) -> Array:
@@ -68,6 +75,11 @@ def _is_made_of(turned: Array, added: Array) -> bool:
     size = np.abs(added)
     large = size >= size.mean()
     return bool(np.median(np.abs(turned - added)[large]) < ROUNDED * size.mean())
+
+
+def _sum_of_twists(odometry: Odometry) -> Array:
+    rates = zip(odometry.twist.T, odometry.means, strict=True)
+    return np.column_stack([_added_up(odometry.time, rate, mean) for rate, mean in rates])
 
 
 def _added_up(time: Array, rate: Array, mean: bool) -> Array:
