@@ -8,6 +8,7 @@ from diffbot_sim.identification.statistics.memory import (
     fall_of_deviance,
     falls_beyond_past,
 )
+from diffbot_sim.identification.statistics.robust import huber
 
 RANDOM = np.random.default_rng(3)
 WHITE = RANDOM.normal(size=(4000, 2))
@@ -18,6 +19,12 @@ def test_what_is_taken_out_of_white_errors_counts_in_full() -> None:
     signal = 0.2 * np.sin(0.7 * np.arange(4000.0))[:, None] * [1.0, 0.5]
     plain = np.sum((WHITE + signal) ** 2) - np.sum(WHITE**2)
     assert fall_of_deviance(WHITE + signal, WHITE) == pytest.approx(plain, rel=0.35)
+
+
+def test_what_is_taken_out_of_a_few_large_errors_counts_as_in_the_deviance() -> None:
+    hits = np.where(np.arange(4000) % 80 == 0, 8.0, 0.0)[:, None]
+    plain = np.sum(huber(WHITE + hits)) - np.sum(huber(WHITE))
+    assert fall_of_deviance(WHITE + hits, WHITE) == pytest.approx(plain, rel=0.35)
 
 
 def test_foreseeing_coloured_errors_from_their_past_explains_nothing() -> None:

@@ -9,11 +9,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from diffbot_sim.identification.statistics.robust import ROUNDING, huber, influence
+from diffbot_sim.identification.statistics.robust import ROUNDING, huber
 from diffbot_sim.records import Array
 
 # Edges of the spans in which past errors are averaged, in samples.
 SPANS = (0, 1, 2, 3, 5, 8, 13, 21, 34, 55)
+# An error of more standard deviations tells no more of those that follow: it may be an outlier.
+LARGEST = 6.0
 
 
 def fall_of_deviance(before: Array, after: Array) -> float:
@@ -34,17 +36,17 @@ def falls_beyond_past(before: Array, after: Array) -> Array:
 
 
 def unforeseen(errors: Array) -> Array:
-    """Return the mean square of what past errors (n, 2) do not tell of each, shape (2,).
+    """Return the mean robust square of what past errors (n, 2) do not tell of each, shape (2,).
 
     No less than rounding, which all errors may be.
     """
-    errors = influence(errors)
-    total = np.vstack([np.zeros(2), np.cumsum(errors, axis=0)])
+    counting = np.clip(errors, -LARGEST, LARGEST)
+    total = np.vstack([np.zeros(2), np.cumsum(counting, axis=0)])
     now = np.arange(len(errors))
     past = [
         (total[np.maximum(now - near, 0)] - total[np.maximum(now - far, 0)]) / (far - near)
         for near, far in pairwise(SPANS)
     ]
     told = np.column_stack(past)
-    known, *_ = np.linalg.lstsq(told, errors, rcond=1e-8)
-    return np.asarray(np.maximum(np.mean((errors - told @ known) ** 2, axis=0), ROUNDING))
+    known, *_ = np.linalg.lstsq(told, counting, rcond=1e-8)
+    return np.asarray(np.maximum(np.mean(huber(errors - told @ known), axis=0), ROUNDING))
