@@ -145,7 +145,7 @@ def _groups(rows: Sequence[Row], keys: Sequence[str]) -> Iterator[tuple[list[str
 
 
 def _text(value: str | list[str]) -> str:
-    return value if isinstance(value, str) else ' + '.join(value)
+    return value if isinstance(value, str) else ' + '.join(value) or 'none'
 
 
 def _norm(error: Row, row: Row) -> float:
