@@ -86,6 +86,12 @@ def test_wheels_of_arcs_are_pushed_the_way_they_turn_where_they_turn_back() -> N
     assert not turning_of_wheels(SimpleNamespace(omega=np.zeros(3), mix=mix)).any()
 
 
+def test_curve_over_the_wheels_angle_is_that_of_the_wheel_with_more_force() -> None:
+    left = Basis('wheels', 'friction_over_wheel_angle', np.array([1.0]), 1.0, 0.2, ())
+    _, force, _ = left.curve(np.array([0.1, 0.0, 3.0, 4.0]), np.eye(4))
+    assert np.abs(force).max() == pytest.approx(5.0, rel=0.01)
+
+
 def test_caster_swings_round_where_the_robot_turns_back() -> None:
     time = np.arange(0.0, 4.0, 0.02)
     v, omega = np.where(time < 2.0, 0.5, -0.5), np.where(time < 1.0, 0.3, 0.0)

@@ -8,6 +8,7 @@ import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.views import View, views
+from diffbot_sim.identification.free_forms.forms import Periodic
 from diffbot_sim.identification.free_forms.variables import TOLD, VARIABLES
 from diffbot_sim.identification.recordings.stretches import Stretch, largest_command
 from diffbot_sim.identification.statistics.norms import rms
@@ -84,12 +85,23 @@ class Basis:
         return self.unit * (self.lever if self.axis == 'omega' else 1.0)
 
     def curve(self, amounts: Array, spread: Array) -> tuple[Array, Array, Array]:
-        """Return points of the variable, force there, and its standard error."""
+        """Return points of the variable, force there, and its standard error.
+
+        Where each wheel has functions of its own: of the one with more force.
+        """
         points, design = VARIABLES[self.variable].form.curve(self.grid)
-        shown = design.shape[1]
-        covariance = np.einsum('ij,jk,ik->i', design, spread[:shown, :shown], design)
+        first = self._stronger(amounts, design.shape[1])
+        shown = slice(first, first + design.shape[1])
+        covariance = np.einsum('ij,jk,ik->i', design, spread[shown, shown], design)
         error = np.sqrt(np.maximum(covariance, 0.0))
-        return points, self.scale * design @ amounts[:shown], self.scale * error
+        return points, self.scale * design @ amounts[shown], self.scale * error
+
+    def _stronger(self, amounts: Array, each: int) -> int:
+        """Return where the amounts of the wheel with more force begin; each: how many it has."""
+        if not isinstance(VARIABLES[self.variable].form, Periodic):
+            return 0
+        sizes = np.linalg.norm(amounts.reshape(-1, each), axis=1)
+        return each * int(np.argmax(sizes))
 
 
 def bases(fit: Fit, stretches: Sequence[Stretch], names: Iterable[str] = TOLD) -> list[Basis]:

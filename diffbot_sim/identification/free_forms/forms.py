@@ -258,7 +258,7 @@ class Periodic:
         return np.concatenate(apart, axis=1) * self.weights(view)[:, None]
 
     def curve(self, rates: Array) -> tuple[Array, Array]:
-        """Return angles of one turn, and the functions of the body or the right wheel there."""
+        """Return angles of one turn, and the functions of the body or one wheel there."""
         angle = np.linspace(-np.pi, np.pi, self.points)
         return angle, _waves(angle[:, None], rates / rates[0])[..., 0]
 
