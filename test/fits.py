@@ -25,6 +25,11 @@ def fitted(run: Run, declared: Model | None = None) -> tuple[Fit, tuple[Stretch,
     return fit_prediction(space, learned, space.prior(), FIRST_GAINS), held_out
 
 
+def without_pose(run: Run) -> Run:
+    """Return a run whose odometry tells twists alone."""
+    return replace(run, odometry=replace(run.odometry, pose=None))
+
+
 def leaving(errors: Array) -> Fit:
     """Return a fit of the plain model that leaves these errors over a scale of 1, shape (n, 2)."""
     space = Space(Model(), ())

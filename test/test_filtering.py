@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from fits import without_pose
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -90,8 +91,7 @@ def test_twists_in_coarse_steps_went_through_no_filter() -> None:
 @pytest.mark.parametrize('share', [1.0, 0.01])
 def test_late_robot_is_not_taken_for_a_filter(share: float) -> None:
     run = driven((ActuatorLag(0.08),), Surroundings(0.004 * share, 0.008 * share))
-    run = replace(run, odometry=replace(run.odometry, pose=None))
-    answer = identify([run], Model(), kinds=LATENESS)
+    answer = identify([without_pose(run)], Model(), kinds=LATENESS)
     assert [effect.name for effect in answer.effects] == ['actuator_lag']
     assert not answer.timings
 
@@ -133,6 +133,5 @@ def test_true_pose_denies_a_filter_shorter_than_an_interval() -> None:
 
 def test_without_a_pose_a_filter_shorter_than_an_interval_is_believed() -> None:
     run = driven((ActuatorDelay(0.008),), Surroundings(), seed=2)
-    without = replace(run, odometry=replace(run.odometry, pose=None))
-    behind = filter_behind(delayed(without, 0.008))
+    behind = filter_behind(delayed(without_pose(run), 0.008))
     assert behind.time_constant == pytest.approx(0.008, rel=0.1)

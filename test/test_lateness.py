@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from fits import fitted
+from fits import fitted, without_pose
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
@@ -145,10 +145,6 @@ def headed_by_its_turn_rate(run: Run) -> Run:
     """Return a run whose poses have the heading that its turn rates sum up to."""
     way = run.odometry.twist[1:, 0] * np.diff(run.odometry.time)
     return posed(run, np.column_stack([way, at_both_ends(run.odometry)[:, 1]]))
-
-
-def without_pose(run: Run) -> Run:
-    return replace(run, odometry=replace(run.odometry, pose=None))
 
 
 def posed_by_its_twists(run: Run) -> Run:

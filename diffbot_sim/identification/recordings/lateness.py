@@ -16,7 +16,7 @@ from scipy.stats import wilcoxon
 from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.recordings.smoothing import smoothed_over
 from diffbot_sim.identification.recordings.stretches import averaged
-from diffbot_sim.identification.recordings.way import beyond_twists, path_of
+from diffbot_sim.identification.recordings.way import path_of, pose_knows_more
 from diffbot_sim.identification.result import Timing
 from diffbot_sim.identification.statistics.norms import rms_of_each, white_noise
 from diffbot_sim.records import Array, Odometry, Run
@@ -140,7 +140,7 @@ def pose_allows_lag(run: Run, of: Components) -> bool:
 def pose_denies_lag(run: Run, lag: float) -> bool:
     """Say whether a pose that was not made of the twist tells that it is not so late [s]."""
     seen = run.odometry
-    path = None if beyond_twists(seen) is None else _telling_path(seen)
+    path = _telling_path(seen) if pose_knows_more(seen) else None
     return path is not None and _is_less_late(seen, path, TWIST, lag)
 
 

@@ -28,22 +28,14 @@ def measured_way(odometry: Odometry) -> Array:
 
     As the twist adds up, or as the pose tells where that knows more.
     """
-    added, beyond = _sum_of_twists(odometry), beyond_twists(odometry)
+    added = _sum_of_twists(odometry)
+    beyond = _beyond(odometry, added)
     return added if beyond is None else added + beyond
 
 
-def beyond_twists(odometry: Odometry) -> Array | None:
-    """Return way [m] and turn [rad] that a pose tells beyond the sum of the twists, shape (k, 2).
-
-    None where there is no pose, it was made of the twists, or it knows less than they do.
-    """
-    if odometry.pose is None:
-        return None
-    told, smooth = path_of(odometry.pose), _samples(odometry, SMOOTH)
-    missed = told - told[0] - _sum_of_twists(odometry)
-    beyond = uniform_filter1d(missed, smooth, axis=0, mode='nearest')
-    beyond -= beyond[0]
-    return beyond if _knows_more(odometry, odometry.pose, beyond) else None
+def pose_knows_more(odometry: Odometry) -> bool:
+    """Say whether there is a pose that was not made of the twists, and knows more than they do."""
+    return _beyond(odometry, _sum_of_twists(odometry)) is not None
 
 
 def measured_heading(odometry: Odometry) -> Array:
@@ -75,6 +67,19 @@ def _is_made_of(turned: Array, added: Array) -> bool:
     size = np.abs(added)
     large = size >= size.mean()
     return bool(np.median(np.abs(turned - added)[large]) < ROUNDED * size.mean())
+
+
+def _beyond(odometry: Odometry, added: Array) -> Array | None:
+    """Return way [m] and turn [rad] that a pose tells beyond the sum of the twists, shape (k, 2).
+
+    None where there is no pose, it was made of the twists, or it knows less than they do.
+    """
+    if odometry.pose is None:
+        return None
+    told, smooth = path_of(odometry.pose), _samples(odometry, SMOOTH)
+    beyond = uniform_filter1d(told - told[0] - added, smooth, axis=0, mode='nearest')
+    beyond -= beyond[0]
+    return beyond if _knows_more(odometry, odometry.pose, beyond) else None
 
 
 def _sum_of_twists(odometry: Odometry) -> Array:
