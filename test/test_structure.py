@@ -1,5 +1,7 @@
 """Structure that no effect accounts for, found in what a fit leaves."""
 
+import re
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,15 +17,17 @@ from smoothed import driven_smoothly
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
+from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.free_forms.dependence import (
     Dependence,
     against_the_model,
     realised,
 )
 from diffbot_sim.identification.free_forms.near_rest import eased
-from diffbot_sim.identification.free_forms.structure import dependences, find_dependences
+from diffbot_sim.identification.free_forms.structure import dependences, describe, find_dependences
 from diffbot_sim.identification.free_forms.warmth import lately
 from diffbot_sim.identification.free_forms.winding import wound
+from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.suspicion import SUSPICIOUS
 from diffbot_sim.physics import Friction, Model, simulate
@@ -236,12 +240,17 @@ def test_wheels_that_stick_the_more_the_longer_they_rest_are_told_by_their_rest(
     assert left.basis.variable == 'rest_before'
 
 
-def left_by_peer(**attached: float) -> Dependence:
-    """Return what a plain fit leaves of a robot of other make that has something attached."""
+def fitted_to_peer(**attached: float) -> tuple[Fit, Sequence[Stretch]]:
+    """Return a plain fit, and held-out data, of a robot of other make that has something more."""
     make = MAKES['medium']
     driver = DRIVES['forces'](make, 3, 120.0, 50.0)
     run = record(make.plant._replace(**attached), driver, Recording(), 3)
-    fit, held_out = fitted(run, exact(make.plant))
+    return fitted(run, exact(make.plant))
+
+
+def left_by_peer(**attached: float) -> Dependence:
+    """Return what a plain fit leaves of such a robot."""
+    fit, held_out = fitted_to_peer(**attached)
     left, *_ = find_dependences(Screen(fit), held_out)
     return left
 
@@ -265,9 +274,13 @@ def test_friction_that_differs_backward_is_told_as_a_push_one_way() -> None:
 
 
 def test_wheel_that_rubs_at_a_place_of_its_turn_is_told_by_its_angle() -> None:
-    left = left_by_peer(tight=1.0, tight_right=1.0, tight_left=2.0)
+    fit, held_out = fitted_to_peer(tight=1.0, tight_right=1.0, tight_left=2.0)
+    left, *_ = find_dependences(Screen(fit), held_out)
     assert left.basis.variable == 'friction_over_wheel_angle'
     assert left.basis.grid[0] == pytest.approx(1.0, rel=0.01)
+    assert re.search(
+        'N on the right wheel, .* N on the left wheel', describe(left, fit).description
+    )
 
 
 @pytest.mark.parametrize('name', ['v', 'wheel_speed'])

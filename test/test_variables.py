@@ -57,7 +57,8 @@ def test_every_form_draws_as_many_functions_as_it_shows(view: View, name: str) -
     for grid in form.grids([view]):
         points, design = form.curve(grid)
         assert len(points) == len(design)
-        assert design.shape[1] <= form.columns(view, grid).shape[1]
+        shared = form.columns(view, grid).shape[1] // len(VARIABLES[name].parts)
+        assert design.shape[1] == shared
 
 
 @pytest.mark.parametrize('name', TOLD)
@@ -86,10 +87,18 @@ def test_wheels_of_arcs_are_pushed_the_way_they_turn_where_they_turn_back() -> N
     assert not turning_of_wheels(SimpleNamespace(omega=np.zeros(3), mix=mix)).any()
 
 
-def test_curve_over_the_wheels_angle_is_that_of_the_wheel_with_more_force() -> None:
-    left = Basis('wheels', 'friction_over_wheel_angle', np.array([1.0]), 1.0, 0.2, ())
-    _, force, _ = left.curve(np.array([0.1, 0.0, 3.0, 4.0]), np.eye(4))
-    assert np.abs(force).max() == pytest.approx(5.0, rel=0.01)
+def test_force_on_each_wheel_is_told_of_each() -> None:
+    right, left = (np.ones((9, 1, 1)) * channel for channel in np.eye(2))
+    both = np.concatenate([right, 0.0 * right, left, 0.0 * left], axis=1)
+    basis = Basis('wheels', 'force_steps', np.array([1.0]), 0.1, 0.2, (both,))
+    strengths = basis.strengths(np.array([1.0, 5.0, -4.0, 5.0]))
+    assert strengths == pytest.approx({'on the right wheel': 0.1, 'on the left wheel': 0.4})
+
+
+def test_curve_is_that_of_the_part_asked_for() -> None:
+    pull, amounts = Basis('v', 'pull', np.array([0.0, 60.0]), 1.0, 0.2, ()), np.array([1.0, -7.0])
+    along_x, along_y = (pull.curve(amounts, np.eye(2), f'along {way}')[1] for way in 'xy')
+    np.testing.assert_allclose(along_y, -7.0 * along_x)
 
 
 def test_caster_swings_round_where_the_robot_turns_back() -> None:

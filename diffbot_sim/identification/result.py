@@ -75,8 +75,9 @@ class Structure:
     axis: 'v' (force along x, N) or 'omega' (torque, N·m); variable: what it depends on;
     strength: rms of the force or torque explained by that variable; p_value: block-robust.
     worth: fall of the BIC when it acts. knots, force: the empirical curve, with force_error
-    its standard error, for a plot. spot: middle and radius [m] of the spot of the floor that it
-    depends on, shape (3,); None where it depends on none.
+    its standard error, for a plot; part: of what, if not of all of it, such as one wheel. spot:
+    middle and radius [m] of the spot of the floor that it depends on, shape (3,); None where it
+    depends on none.
     """
 
     description: str
@@ -88,6 +89,7 @@ class Structure:
     force: Array
     force_error: Array
     worth: float = 0.0
+    part: str = ''
     spot: Array | None = None
 
 

@@ -141,7 +141,8 @@ def structure_figure(structure: Structure) -> Figure:
     about = (
         'Estimate with its 95 % band, beside the friction and inertia that were fitted with it.'
     )
-    return Figure('What no effect accounts for', about, data, look)
+    title = f'What no effect accounts for {structure.part}'
+    return Figure(title.rstrip(), about, data, look)
 
 
 def error_figures(errors: Errors) -> list[Figure]:

@@ -8,7 +8,6 @@ import numpy as np
 
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.views import View, views
-from diffbot_sim.identification.free_forms.forms import Periodic
 from diffbot_sim.identification.free_forms.variables import TOLD, VARIABLES
 from diffbot_sim.identification.recordings.stretches import Stretch, largest_command
 from diffbot_sim.identification.statistics.norms import rms
@@ -76,32 +75,32 @@ class Basis:
 
     def strength(self, amounts: Array) -> float:
         """Return the rms of the force [N], or torque [N·m], that amounts stand for."""
-        force = np.concatenate([np.einsum('kqc,q->kc', v, amounts) for v in self.values])
-        return self.scale * rms(force)
+        return self.scale * rms(self._force(amounts))
+
+    def strengths(self, amounts: Array) -> dict[str, float]:
+        """Return the same of each part that has functions of its own."""
+        count = len(VARIABLES[self.variable].parts)
+        alone = np.repeat(np.eye(count), self.size // count, axis=1) * amounts
+        # A wheel's own functions push that one alone.
+        sizes = [np.max(np.sqrt(np.mean(self._force(own) ** 2, axis=0))) for own in alone]
+        return dict(zip(VARIABLES[self.variable].parts, self.scale * np.array(sizes), strict=True))
+
+    def _force(self, amounts: Array) -> Array:
+        return np.concatenate([np.einsum('kqc,q->kc', v, amounts) for v in self.values])
 
     @property
     def scale(self) -> float:
         """Force [N], or torque [N·m] along omega, that an amount of 1 stands for."""
         return self.unit * (self.lever if self.axis == 'omega' else 1.0)
 
-    def curve(self, amounts: Array, spread: Array) -> tuple[Array, Array, Array]:
-        """Return points of the variable, force there, and its standard error.
-
-        Where each wheel has functions of its own: of the one with more force.
-        """
+    def curve(self, amounts: Array, spread: Array, part: str) -> tuple[Array, Array, Array]:
+        """Return points of the variable, force of a part there, and its standard error."""
         points, design = VARIABLES[self.variable].form.curve(self.grid)
-        first = self._stronger(amounts, design.shape[1])
+        first = design.shape[1] * VARIABLES[self.variable].parts.index(part)
         shown = slice(first, first + design.shape[1])
         covariance = np.einsum('ij,jk,ik->i', design, spread[shown, shown], design)
         error = np.sqrt(np.maximum(covariance, 0.0))
         return points, self.scale * design @ amounts[shown], self.scale * error
-
-    def _stronger(self, amounts: Array, each: int) -> int:
-        """Return where the amounts of the wheel with more force begin; each: how many it has."""
-        if not isinstance(VARIABLES[self.variable].form, Periodic):
-            return 0
-        sizes = np.linalg.norm(amounts.reshape(-1, each), axis=1)
-        return each * int(np.argmax(sizes))
 
 
 def bases(fit: Fit, stretches: Sequence[Stretch], names: Iterable[str] = TOLD) -> list[Basis]:

@@ -151,14 +151,16 @@ def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretc
 
 
 def describe(dependence: Dependence, fit: Fit) -> Structure:
-    """Put a dependence that a fit lacks into words and a curve."""
+    """Put a dependence that a fit lacks into words and a curve, that of its strongest part."""
     basis = dependence.basis
-    knots, curve, error = basis.curve(dependence.amounts, dependence.spread)
-    strength = basis.strength(dependence.amounts)
+    strength, strengths = basis.strength(dependence.amounts), basis.strengths(dependence.amounts)
+    part = max(strengths, key=strengths.__getitem__)
+    knots, curve, error = basis.curve(dependence.amounts, dependence.spread, part)
     kind, unit = FORCES[basis.axis]
+    each = ', '.join(f'{size:.3g} {unit} {name}' for name, size in strengths.items() if name)
     return Structure(
         description=(
-            f'a {kind} of {strength:.3g} {unit} rms that depends on '
+            f'a {kind} of {strength:.3g} {unit} rms{each and f" ({each})"} that depends on '
             f'{basis.words} and that no effect of the library accounts for'
         ),
         axis=basis.axis,
@@ -169,5 +171,6 @@ def describe(dependence: Dependence, fit: Fit) -> Structure:
         force=curve,
         force_error=error,
         worth=worth_of(dependence, fit),
+        part=part,
         spot=basis.grid if isinstance(VARIABLES[basis.variable].form, Spot) else None,
     )

@@ -9,6 +9,12 @@ from diffbot_sim.identification.recordings.stretches import Stretch
 
 # Axes of what acts on the body, and on each wheel.
 BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
+# Parts of a force: that of all functions together, or of each wheel, or each way in the world.
+WHOLE, EACH_WHEEL, EACH_WAY = (
+    ('',),
+    ('on the right wheel', 'on the left wheel'),
+    ('along x', 'along y'),
+)
 
 
 @dataclass(frozen=True)
@@ -16,10 +22,12 @@ class Variable:
     """A variable in words, its form, and along which axes a force may depend on it.
 
     words: grid stands for the numbers that the functions are laid on, rate and period for those of
-    the slowest wave; order: in which samples are cut into parts that must agree.
+    the slowest wave; order: in which samples are cut into parts that must agree; parts: what has
+    functions of its own, which follow each other in this order.
     """
 
     words: str
     form: Form
     axes: tuple[str, ...]
     order: Callable[[Sequence[Stretch]], Order] = in_time
+    parts: tuple[str, ...] = WHOLE

@@ -58,7 +58,13 @@ from diffbot_sim.identification.free_forms.turning_back import (
     rolled_since,
     turned_since,
 )
-from diffbot_sim.identification.free_forms.variable import BODY, WHEELS, Variable
+from diffbot_sim.identification.free_forms.variable import (
+    BODY,
+    EACH_WAY,
+    EACH_WHEEL,
+    WHEELS,
+    Variable,
+)
 from diffbot_sim.identification.free_forms.warmth import Warming
 from diffbot_sim.identification.free_forms.winding import Winding
 
@@ -119,6 +125,7 @@ VARIABLES = {
         'time, like a pull that is fixed in the world and changes',
         Pull(time, counts=GROWTH_KNOTS),
         ('v',),
+        parts=EACH_WAY,
     ),
     'rhythm': Variable(
         'time, the same again every {period:.3g} s',
@@ -164,11 +171,13 @@ VARIABLES = {
         "each wheel's angle, at order {rate:.3g}",
         Periodic(lambda view: view.wheel_angle, _alone(wheel_orders), LOOKED_AT),
         ('wheels',),
+        parts=EACH_WHEEL,
     ),
     'friction_over_wheel_angle': Variable(
         "each wheel's angle, against the motion, at order {rate:.3g}",
         Periodic(lambda view: view.wheel_angle, _rubbing, LOOKED_AT, weights=rolling),
         ('wheels',),
+        parts=EACH_WHEEL,
     ),
     'wheel_force': Variable(
         "each wheel's commanded force", Piecewise(lambda view: view.force), WHEELS
@@ -183,6 +192,7 @@ VARIABLES = {
         "each wheel's commanded force, as if it came in steps of {period:.3g} N",
         Periodic(lambda view: 2.0 * np.pi * view.force, _alone(force_rates), LOOKED_AT),
         ('wheels',),
+        parts=EACH_WHEEL,
     ),
     'drive': Variable(
         'how hard each wheel is driven or braked, against the motion',
@@ -253,6 +263,7 @@ VARIABLES = {
             weights=share_of_force,
         ),
         ('wheels',),
+        parts=EACH_WHEEL,
     ),
     'friction_over_time': Variable(
         'time, against the motion', Growth(time_of_wheels, rolling, GROWTH_KNOTS), WHEELS
