@@ -136,9 +136,9 @@ def against_the_model(fit: Fit, dependence: Dependence) -> Dependence:
     gained = fit.deviance(fit.sigma) - alone.deviance(fit.sigma)
     if gained <= 0.0:
         return dependence
-    left = acting(fit, dependence.basis, np.append(at, dependence.amounts), fit.stretches)
     fall = max(dependence.fall - gained, 0.0)
-    return replace(dependence, fall=fall, beyond=fall_of_deviance(alone.over(fit.sigma), left))
+    beyond = fall_of_deviance(alone.over(fit.sigma), beside(fit, dependence))
+    return replace(dependence, fall=fall, beyond=beyond)
 
 
 def best_against_the_model(fit: Fit, tried: Iterable[Dependence]) -> Dependence:
@@ -159,6 +159,13 @@ def acting(fit: Fit, basis: Basis, at: Array, stretches: Sequence[Stretch]) -> A
     """Return whitened errors on stretches at a point: u, gains, amounts of the basis."""
     u, gains, amounts = np.split(at, [len(fit.u), len(fit.u) + len(fit.gains)])
     return whitened(basis.pushed(stretches, amounts), fit.space.model(u), gains, fit.sigma)
+
+
+def beside(fit: Fit, dependence: Dependence) -> Array:
+    """Return whitened errors where a realised dependence acts besides, shape (n, 2)."""
+    adapted = np.concatenate([fit.u, fit.gains]) + dependence.adaptation
+    at = np.append(adapted, dependence.amounts)
+    return acting(fit, dependence.basis, at, fit.stretches)
 
 
 def sensitivity(screen: Screen, basis: Basis) -> Array:

@@ -19,6 +19,7 @@ from diffbot_sim.identification.free_forms.dependence import (
     worth_of,
 )
 from diffbot_sim.identification.free_forms.floor import by_place
+from diffbot_sim.identification.free_forms.returning import is_denied_on_return
 from diffbot_sim.identification.free_forms.spotting import Spot
 from diffbot_sim.identification.free_forms.variables import VARIABLES
 from diffbot_sim.identification.recordings.start import restarted
@@ -98,6 +99,8 @@ def _beyond_doubt(
         return None
     if _is_slight(fit, dependence):
         return None
+    if _is_of_spot(dependence) and is_denied_on_return(fit, dependence):
+        return None
     least = _least_worth(fit, dependence, held_out)
     if isinf(least):
         return None
@@ -122,6 +125,10 @@ def _least_worth(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) 
 
 def _is_of_place(dependence: Dependence) -> bool:
     return VARIABLES[dependence.basis.variable].order is by_place
+
+
+def _is_of_spot(dependence: Dependence) -> bool:
+    return isinstance(VARIABLES[dependence.basis.variable].form, Spot)
 
 
 def _is_slight(fit: Fit, dependence: Dependence) -> bool:
@@ -172,5 +179,5 @@ def describe(dependence: Dependence, fit: Fit) -> Structure:
         force_error=error,
         worth=worth_of(dependence, fit),
         part=part,
-        spot=basis.grid if isinstance(VARIABLES[basis.variable].form, Spot) else None,
+        spot=basis.grid if _is_of_spot(dependence) else None,
     )
