@@ -52,7 +52,7 @@ def test_what_was_filtered_comes_back(time_constant: float, seed: int) -> None:
 
 
 def test_filtered_twists_do_not_make_a_robot_late() -> None:
-    answer = identify([filtered(driven((), Surroundings()), 0.06)], Model())
+    answer = identify([filtered(driven((), Surroundings()), 0.06)], Model(), kinds=LATENESS)
     assert answer.verdict == 'nothing_missing'
     (timing,) = answer.timings
     assert timing.taken == 'filter'
