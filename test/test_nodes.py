@@ -139,7 +139,7 @@ def test_a_command_is_dropped_when_it_is_too_old(bare):
 
 def test_a_command_of_nan_is_refused_and_the_node_lives_on(bare, started):
     assert twist_of(bare.push(nan, 0.0, 10)[-1]) == (0.0, 0.0)
-    assert 'right_wheel/force_cmd: nan is no force; refused' in (
+    assert 'right_wheel/force_cmd: nan is not finite; ignored' in (
         started[1]['bare', 'simulator'].said()
     )
     assert twist_of(bare.push(10.0, 10.0, 10)[-1])[0] > 0.0
@@ -242,7 +242,7 @@ def test_the_inner_loop_reaches_a_twist_and_stops_when_commands_cease(plain):
 def test_the_inner_loop_refuses_nan_and_lives_on(plain, started):
     said = started[1]['plain', 'pi_controller'].said
     with plain.publishing('cmd_vel', twist(Twist, nan, 0.0)):
-        plain.until(lambda: 'cmd_vel: nan, 0.0 is no motion' in said())
+        plain.until(lambda: 'cmd_vel: nan, 0.0 is not finite' in said())
     drive(plain, 'cmd_vel', twist(Twist, 0.2, 0.0), near=(0.2, 0.0))
 
 

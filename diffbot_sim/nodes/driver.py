@@ -1,5 +1,7 @@
 """Drive a robot so that its bag shows everything: cmd_vel with steps, arcs, turns and stops."""
 
+from functools import partial
+
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.executors import ExternalShutdownException
@@ -8,7 +10,7 @@ from rclpy.node import Node
 from diffbot_sim.control.excitation import excitation, twist_at
 from diffbot_sim.nodes import conversions
 from diffbot_sim.nodes.outputs import DEPTH
-from diffbot_sim.nodes.parameters import Live, Values, build, table
+from diffbot_sim.nodes.parameters import Live, build, table
 from diffbot_sim.nodes.running import parse, parser, run
 from diffbot_sim.nodes.settings import DriverSettings
 
@@ -18,9 +20,8 @@ class Driver(Node):
 
     def __init__(self) -> None:
         super().__init__('driver')
-        fixed = tuple(table(DriverSettings))
-        live = Live(self, table(DriverSettings), self._make, lambda settings: None, fixed)
-        chosen = live.value
+        known = table(DriverSettings)
+        chosen = Live(self, known, partial(build, DriverSettings), fixed=known).value
         self._duration = chosen.duration
         self._segments = excitation(
             chosen.seed, chosen.duration, chosen.fastest, chosen.fastest_turn
@@ -43,9 +44,6 @@ class Driver(Node):
         if elapsed > self._duration:
             self.get_logger().info('the drive is over')
             raise ExternalShutdownException
-
-    def _make(self, values: Values) -> DriverSettings:
-        return build(DriverSettings, values)
 
 
 def main(argv: list[str]) -> int:

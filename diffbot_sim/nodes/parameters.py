@@ -121,8 +121,9 @@ class Live(Generic[Result]):
     """Parameters that can change while a node runs.
 
     known: all of them. make: builds what the node works with from all values, without side
-    effects, or raises ConfigError; a change is refused with its message. apply: called with
-    the new result afterwards. Raises ConfigError when the start values are wrong.
+    effects, or raises ConfigError; a change is refused with its message. fixed: those that do not
+    change. apply: called with the new result afterwards. Raises ConfigError when the start values
+    are wrong.
     """
 
     def __init__(
@@ -130,8 +131,8 @@ class Live(Generic[Result]):
         node: Node,
         known: Mapping[str, Spec],
         make: Callable[[Values], Result],
-        apply: Callable[[Result], None],
-        fixed: Iterable[str] = (),
+        fixed: Iterable[str],
+        apply: Callable[[Result], None] = lambda result: None,
     ) -> None:
         self._node, self._known, self._make, self._apply = node, known, make, apply
         start = {name: value for name, value in given(node).items() if name in known}

@@ -13,7 +13,7 @@ from diffbot_sim.control.pi import wheel_rates
 from diffbot_sim.nodes import conversions
 from diffbot_sim.nodes.conversions import Pair
 from diffbot_sim.nodes.outputs import DEPTH, SIDES
-from diffbot_sim.nodes.parameters import Live, Values, build, table
+from diffbot_sim.nodes.parameters import Live, build, table
 from diffbot_sim.nodes.running import parse, parser, run
 from diffbot_sim.nodes.settings import ControllerSettings
 
@@ -30,7 +30,8 @@ class PiController(Node):
     def __init__(self) -> None:
         super().__init__('pi_controller')
         known = table(ControllerSettings)
-        live = Live(self, known, self._make, self._apply, ControllerSettings.fixed)
+        make = partial(build, ControllerSettings)
+        live = Live(self, known, make, ControllerSettings.fixed, self._apply)
         self._settings = live.value
         self._loop = InnerLoop()
         self._stamp: int | None = None
@@ -116,12 +117,9 @@ class PiController(Node):
             return True
         text = ', '.join(map(str, values))
         self.get_logger().warning(
-            f'{topic}: {text} is no motion; refused', throttle_duration_sec=QUIET
+            f'{topic}: {text} is not finite; ignored', throttle_duration_sec=QUIET
         )
         return False
-
-    def _make(self, values: Values) -> ControllerSettings:
-        return build(ControllerSettings, values)
 
     def _apply(self, settings: ControllerSettings) -> None:
         self._settings = settings

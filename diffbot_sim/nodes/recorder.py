@@ -15,7 +15,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from diffbot_sim.bags.parts import Limits, recording
 from diffbot_sim.bags.raw import Offer, Raw, is_standard
 from diffbot_sim.nodes import conversions
-from diffbot_sim.nodes.parameters import Live, Values, build, table
+from diffbot_sim.nodes.parameters import Live, build, table
 from diffbot_sim.nodes.running import overrides, parse, parser, run
 from diffbot_sim.nodes.settings import STORAGES, RecorderSettings
 
@@ -46,18 +46,20 @@ class Recorder(Node):
 
     def __init__(self, chosen: list[Any]) -> None:
         super().__init__('recorder', parameter_overrides=chosen)
-        live = Live(self, table(RecorderSettings), self._make, self._apply, RecorderSettings.fixed)
-        folder = Path(live.value.output or f'{datetime.now():rosbag2_%Y_%m_%d-%H_%M_%S}')
+        # Nothing can change while it records.
+        known = table(RecorderSettings)
+        settings = Live(self, known, partial(build, RecorderSettings), fixed=known).value
+        folder = Path(settings.output or f'{datetime.now():rosbag2_%Y_%m_%d-%H_%M_%S}')
         self._sources: dict[str, Source] = {}
         self._listeners: dict[str, Any] = {}
         self._heard: dict[str, int] = {}  # when the last message of a topic came [ns]
-        self._wanted = live.value.topics
+        self._wanted = settings.topics
         self._look()
         self.create_timer(LOOK_AGAIN, self._look)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(FLUSH, self._flush, clock=steady)
         # Last of all: a signal that ends the node earlier leaves no bag that lacks its end.
-        self._writer = recording(folder, live.value.storage, _limits(live.value))
+        self._writer = recording(folder, settings.storage, _limits(settings))
         self.get_logger().info(f'recording to {folder}')
 
     def destroy_node(self) -> None:
@@ -143,12 +145,6 @@ class Recorder(Node):
         stamp, last = int(info['received_timestamp']), self._heard.get(topic, 0)
         return last if stamp < last < stamp + LONGEST_WAIT else stamp
 
-    def _make(self, values: Values) -> RecorderSettings:
-        return build(RecorderSettings, values)
-
-    def _apply(self, settings: RecorderSettings) -> None:
-        """Nothing can change while it records."""
-
 
 def _limits(settings: RecorderSettings) -> Limits:
     return Limits(settings.max_bag_size or inf, settings.max_bag_duration or inf)
@@ -168,7 +164,11 @@ def main(argv: list[str]) -> int:
         help='size that makes it start another file',
     )
     options.add_argument(
-        '-d', '--max-bag-duration', type=float, metavar='SECONDS', help='time, likewise'
+        '-d',
+        '--max-bag-duration',
+        type=float,
+        metavar='SECONDS',
+        help='duration after which it starts another file',
     )
     chosen = overrides(RecorderSettings, parse(options, argv))
     return run(lambda: Recorder(chosen), argv)

@@ -122,14 +122,6 @@ class ControllerSettings(LoopSettings):
 class RecorderSettings:
     """What is recorded, and where to."""
 
-    fixed: ClassVar[tuple[str, ...]] = (
-        'output',
-        'topics',
-        'storage',
-        'max_bag_size',
-        'max_bag_duration',
-    )
-
     output: str = parameter('', meaning='folder of the new bag; empty names it by date and time')
     topics: tuple[str, ...] = parameter(
         (
@@ -158,7 +150,11 @@ class RecorderSettings:
         meaning='a file so big is followed by another; 0 = never',
     )
     max_bag_duration: float = parameter(
-        0.0, unit='s', low=0.0, high=1e9, meaning='likewise, by time; 0 = never'
+        0.0,
+        unit='s',
+        low=0.0,
+        high=1e9,
+        meaning='a file so long is followed by another; 0 = never',
     )
 
 

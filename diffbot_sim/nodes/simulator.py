@@ -46,7 +46,7 @@ class Simulator(Node):
         super().__init__('simulator')
         known = table(SimulatorSettings) | model_table()
         self._listed = listed_effects(self)
-        live = Live(self, known, self._make, self._apply, SimulatorSettings.fixed)
+        live = Live(self, known, self._make, SimulatorSettings.fixed, self._apply)
         self._settings, model = live.value
         # Compiles before anyone waits.
         self._plant = Plant(model, self._settings.physics_step, self._home)
@@ -131,7 +131,7 @@ class Simulator(Node):
         force = conversions.force_of(message)
         if not isfinite(force):
             self.get_logger().warning(
-                f'{side}_wheel/force_cmd: {force} is no force; refused',
+                f'{side}_wheel/force_cmd: {force} is not finite; ignored',
                 throttle_duration_sec=QUIET,
             )
         elif not self._is_late(message):
