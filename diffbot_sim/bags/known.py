@@ -70,13 +70,13 @@ def _ended(odom: Ordered, force: Ordered) -> Known:
         return Known(odom)
     told = f'{force.topic} ends {early:.1f} s before the odometry'
     last = float(force.values[-1, 0])
-    if last == 0.0 or not _is_steady(force, odom):
+    if last == 0.0 or not _was_sent_all_along(force, odom):
         return Known(odom, (f'{told}; its last force is held',))
     words = f'{told}, with {last:g} N; left out from there on'
     return Known(_part(odom, odom.stamp <= force.stamp[-1]), (words,))
 
 
-def _is_steady(force: Ordered, odom: Ordered) -> bool:
+def _was_sent_all_along(force: Ordered, odom: Ordered) -> bool:
     """Say whether a force was sent all along, without a pause, but for the end."""
     left = odom.stamp[-1] - force.stamp[-1]
     return bool(not silences(force) and left > silence(force) and np.ptp(force.stamp) > left)

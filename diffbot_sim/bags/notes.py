@@ -13,7 +13,7 @@ from diffbot_sim.records import Run
 from diffbot_sim.standing import turning, unfilled
 
 MOST = 5  # holes that are told one by one
-# What is rarer is told, not what is usual: a share of the messages.
+# Repeated stamps are told only where more than this share of the messages bears one.
 OFTEN = 0.01
 
 

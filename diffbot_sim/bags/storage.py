@@ -58,7 +58,7 @@ def opened(path: Path) -> Iterator[Any]:
     except BagError:
         raise
     except PermissionError as error:
-        raise BagError(f'may not be read ({error.strerror}). Ask its owner for leave.') from error
+        raise BagError(f'cannot be read ({error.strerror}). Check its permissions.') from error
     except Exception as error:  # damaged bytes surface as any of struct's, sqlite's, zstd's errors
         detail = ' '.join(str(error).split()).rstrip('.') or type(error).__name__
         if 'not supported' in detail:

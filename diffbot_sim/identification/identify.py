@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, replace
+from typing import TypeVar
 
 from diffbot_sim.identification.conclusions.advice import advice
 from diffbot_sim.identification.conclusions.agreement import agreement
@@ -34,6 +35,8 @@ from diffbot_sim.identification.simulating import for_simulation
 from diffbot_sim.physics.effects import Effect, laws
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Run
+
+Value = TypeVar('Value')
 
 
 def identify(
@@ -111,25 +114,26 @@ def _effects(selection: Selection, found: Mapping[str, Estimate]) -> Iterator[Fo
     """Describe the effects found, the one with most evidence first."""
     drives = selection.excitation
     for name in sorted(selection.support, key=lambda name: -selection.support[name].delta_bic):
-        others, own = selection.alternatives[name], f'{name}.'
+        others = selection.alternatives[name]
         alike = (name, *others) if others else ()
         yield FoundEffect(
             name=name,
-            parameters={
-                key.removeprefix(own): estimate
-                for key, estimate in found.items()
-                if key.startswith(own)
-            },
+            parameters=_own(found, name),
             evidence=asdict(selection.support[name]),
             alternatives=others,
             separate_by='; '.join(sorted({drives[each] for each in alike})),
         )
 
 
+def _own(values: Mapping[str, Value], effect: str) -> dict[str, Value]:
+    """Return what belongs to an effect, by the names of its parameters."""
+    begin = f'{effect}.'
+    return {k.removeprefix(begin): v for k, v in values.items() if k.startswith(begin)}
+
+
 def _candidate(trial: Trial) -> Candidate:
     evidence = trial.evidence
-    names = [] if trial.fit is None else list(trial.fit.space.values(trial.fit.u).items())
-    own = {key: value for key, value in names if key.startswith(trial.kind.name + '.')}
+    values = {} if trial.fit is None else trial.fit.space.values(trial.fit.u)
     return Candidate(
         trial.kind.name,
         evidence.delta_bic,
@@ -137,5 +141,5 @@ def _candidate(trial: Trial) -> Candidate:
         evidence.p_block,
         evidence.held_out_gain,
         trial.outcome,
-        {key.removeprefix(trial.kind.name + '.'): value for key, value in own.items()},
+        _own(values, trial.kind.name),
     )

@@ -23,8 +23,8 @@ from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.selection.candidates import (
     approach,
     complete,
+    fit_without,
     on_recordings,
-    reduce,
     refitted,
 )
 from diffbot_sim.identification.selection.evidence import (
@@ -48,8 +48,9 @@ DECIDING_SHARE, AS_MEANS = 0.05, 0.1
 class Older(NamedTuple):
     """What of the twists may be older than its stamps.
 
-    of: its components; taken: how a run is taken then; worth: how much lower the BIC of a second
-    fit is then than that of a first, for what gains less of it; together: the same for all of it.
+    what: in words; of: its components; taken: how a run is taken then; worth: how much lower the
+    BIC of a second fit is then than that of a first, for what gains less of it; together: the same
+    for all of it.
     """
 
     what: str
@@ -214,5 +215,5 @@ def _timely(fit: Fit) -> Fit:
     """Fit a structure again, less what makes a robot late."""
     for kind in fit.space.kinds:
         if kind.name in LATE_EFFECTS:
-            fit = reduce(fit, kind.name)
+            fit = fit_without(fit, kind.name)
     return fit

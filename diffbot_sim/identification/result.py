@@ -72,7 +72,8 @@ class Candidate:
 class Structure:
     """Structure left in the residual that no effect of the library accounts for.
 
-    axis: 'v' (force along x, N) or 'omega' (torque, N·m); variable: what it depends on;
+    axis: 'v' (force along x, N), 'omega' (torque, N·m), 'wheels' (force on each wheel, N) or
+    'difference' (on one wheel, and against it on the other, N); variable: what it depends on;
     strength: rms of the force or torque explained by that variable; p_value: block-robust.
     worth: fall of the BIC when it acts. knots, force: the empirical curve, with force_error
     its standard error, for a plot; part: of what, if not of all of it, such as one wheel. spot:

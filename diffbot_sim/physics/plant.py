@@ -95,7 +95,7 @@ class Plant:
 
     @property
     def pose(self) -> tuple[float, float, float]:
-        """X [m], y [m] and heading [rad, not wrapped]."""
+        """x [m], y [m] and heading [rad, not wrapped]."""
         return float(self._row[0]), float(self._row[1]), float(self._row[2])
 
     @property
@@ -110,7 +110,7 @@ class Plant:
 
     @property
     def twist(self) -> tuple[float, float]:
-        """V [m/s] and ω [rad/s]."""
+        """v [m/s] and ω [rad/s]."""
         return self._pair(7)
 
     @property

@@ -22,5 +22,5 @@ class Robot:
 
     @property
     def half_separation(self) -> float:
-        """B of the paper [m]."""
+        """Half the wheel separation, b of the paper [m]."""
         return self.wheel_separation / 2.0

@@ -9,13 +9,13 @@ TIMINGS = {
     'pose': 'the twists are means over what the poses tell, {} late; that was used instead.',
     'smoothed': 'the twists are no sharper than the changes of the poses, which were used.',
     'mean': 'the twists were taken as {} older than their stamps, as means over the past are; if '
-    'they are not, it is the robot that is so much late.',
+    'they are not, the robot itself responds that late.',
     'speed': 'the speeds alone were taken as {} older than their stamps, as those of encoders '
-    'beside a gyro are; if they are not, it is the robot that is so much late.',
+    'beside a gyro are; if they are not, the robot itself responds that late.',
     'filter': 'the twists were taken as they were before a low-pass filter with a time constant '
     'of {}: it explains them and their noise better than a robot that is late.',
     'undecided': 'the twists may be {} older than their stamps, as means over the past are; this '
-    'recording does not tell. Then it is not the robot that is so much late. Record faster.',
+    'recording does not tell. If they are, the robot itself is not late. Record faster.',
     'force': 'the robot moves before the forces that are told to drive it: they were taken as '
     '{} older than their stamps.',
 }

@@ -47,7 +47,7 @@ def _is_vague(it: Estimate) -> bool:
 def _how(name: str, it: Estimate) -> str:
     if it.at_bound and name in BY_FACTOR:
         far = f'{WIDEST_FACTOR:g} times larger or smaller than declared'
-        return f'{far}, further no fit goes: declare it nearer, or this drive leaves it open'
+        return f'{far}, the limit of any fit: declare it nearer, or this drive leaves it open'
     if it.at_bound:
         return 'at the end of its valid range, so this drive leaves it open'
     share = 0.5 * (it.high - it.low) / abs(it.value) if it.value else float('inf')

@@ -60,7 +60,7 @@ def _one_step(models: Sequence[Model], final: Fit, held_out: Sequence[Stretch]) 
 
 
 def _settled(stretch: Stretch) -> NDArray[np.bool_]:
-    return np.asarray((stretch.time > stretch.time[0] + WINDOW) & (stretch.used > 0))
+    return np.asarray((stretch.time > stretch.time[0] + WINDOW) & stretch.used)
 
 
 def _restarted(models: Sequence[Model], final: Fit, held_out: Sequence[Stretch]) -> list[Horizon]:

@@ -117,7 +117,7 @@ class _Profile:
     def _adapted(self, moved: Fit) -> Fit:
         """Return a step towards where the others lower the error most, by the fit's own slopes."""
         change = (moved.whitened - self._fit.whitened).ravel()
-        point = np.concatenate([moved.u, moved.gains])
+        point = moved.point
         point[self._others] += self._shift @ change
         u, gains = np.split(point, [len(moved.u)])
         bounds = self._fit.space.bounds()

@@ -139,7 +139,7 @@ def _cost_before(fit: Fit, effect: str, behind: Filter) -> float:
     stretches = restarted(space.model(start), undone)
     before = fit_prediction(space, stretches, start, FIRST_GAINS)
     shares = [
-        _passed(stretch.time, behind.time_constant)[stretch.used[1:] > 0] for stretch in stretches
+        _passed(stretch.time, behind.time_constant)[stretch.used[1:]] for stretch in stretches
     ]
     return _cost(before) + 4.0 * float(np.log(np.concatenate(shares)).sum())
 

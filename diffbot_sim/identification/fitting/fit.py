@@ -66,8 +66,18 @@ class Fit:
     def counted(self, errors: Sequence[Array]) -> Array:
         """Return what counts of errors on each stretch, (k, 2, q), over sigma, (n, 2, q)."""
         pairs = zip(errors, self.stretches, strict=True)
-        rows = [of_stretch[stretch.used > 0] for of_stretch, stretch in pairs]
+        rows = [of_stretch[stretch.used] for of_stretch, stretch in pairs]
         return np.asarray(np.concatenate(rows) / self.sigma[:, None])
+
+    @property
+    def point(self) -> Array:
+        """Where it ended: u and then the gains, shape (p,)."""
+        return np.concatenate([self.u, self.gains])
+
+    @property
+    def departure(self) -> Array:
+        """How far u is from the prior: of effects, from neutral."""
+        return np.asarray(self.u - self.space.prior())
 
     @property
     def prior_information(self) -> Array:
@@ -86,8 +96,12 @@ class Fit:
         def errors(point: Array) -> Array:
             return whitened(self.stretches, space.model(point[:size]), point[size:], self.sigma)
 
-        point = np.concatenate([self.u, self.gains])
-        return derivatives(errors, point, errors(point), joint_bounds(space))
+        return derivatives(errors, self.point, errors(self.point), joint_bounds(space))
+
+    @property
+    def slopes(self) -> Array:
+        """The same with a row for v and one for ω of every sample, shape (2 n, p)."""
+        return self.jacobian.reshape(-1, self.jacobian.shape[-1])
 
     def price(self, numbers: int) -> float:
         """Return by how much so many more numbers have to lower the deviance: their BIC."""
@@ -99,7 +113,7 @@ def whitened(stretches: Sequence[Stretch], model: Model, gains: Array, sigma: Ar
     rows = []
     for stretch in stretches:
         innovation = predict(model, stretch, gains).innovation
-        used = (innovation * stretch.used[:, None])[stretch.used > 0]
+        used = innovation[stretch.used]
         # Parameters far from any robot make numbers that cannot be squared: these only have to
         # be bad.
         rows.append(np.clip(used, -WORST * sigma, WORST * sigma) / sigma)

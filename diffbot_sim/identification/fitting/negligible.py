@@ -14,16 +14,16 @@ from diffbot_sim.records import Array
 NEGLIGIBLE, HIDDEN = 0.0025, 0.5
 
 
-def running_free(fit: Fit, sigma: Array) -> Array:
-    """Return the errors of a fit that nothing corrects, over a scale, shape (n, 2)."""
+def uncorrected(fit: Fit, sigma: Array) -> Array:
+    """Return the errors of a fit whose speeds nothing corrects, over a scale, shape (n, 2)."""
     return whitened(fit.stretches, fit.model, NO_GAIN, sigma)
 
 
 def simulates_alike(fit: Fit, errors: Array) -> bool:
-    """Say whether a fit, running free, differs by next to nothing from another simulation.
+    """Say whether a fit, uncorrected, differs by next to nothing from another simulation.
 
     errors: of the other one over the fit's sigma, shape (n, 2).
     """
-    own = running_free(fit, fit.sigma)
+    own = uncorrected(fit, fit.sigma)
     little = np.minimum(NEGLIGIBLE * motion_of(fit.stretches) / fit.sigma, HIDDEN)
     return bool(np.all(rms_of_each(errors - own) < little))

@@ -43,11 +43,11 @@ def _driven(run: Run, by: Array) -> Run:
     return replace(run, commands=Commands(given.time, given.force @ by.T, unsure))
 
 
-def _told(run: Run, units: Array) -> Run:
+def _rescaled(run: Run, units: Array) -> Run:
     return replace(run, odometry=replace(run.odometry, twist=run.odometry.twist * units))
 
 
-RIGHT, LEFT_SIDE = np.diag([-1.0, 1.0]), np.diag([1.0, -1.0])
+RIGHT_FLIPPED, LEFT_FLIPPED = np.diag([-1.0, 1.0]), np.diag([1.0, -1.0])
 EXCHANGED = np.array([[0.0, 1.0], [1.0, 0.0]])
 FAULTS = (
     Fault(
@@ -57,15 +57,19 @@ FAULTS = (
     ),
     Fault('the speed had the other sign', partial(_driven, by=-EXCHANGED), (0,)),
     Fault('both forces had the other sign', partial(_driven, by=-np.eye(2)), (0, 1)),
-    Fault('the force of the right wheel had the other sign', partial(_driven, by=RIGHT), (0, 1)),
     Fault(
-        'the force of the left wheel had the other sign', partial(_driven, by=LEFT_SIDE), (0, 1)
+        'the force of the right wheel had the other sign',
+        partial(_driven, by=RIGHT_FLIPPED),
+        (0, 1),
     ),
-    Fault('the speed was told in mm/s', partial(_told, units=np.array([1e-3, 1.0])), (0,)),
-    Fault('the speed was told in cm/s', partial(_told, units=np.array([1e-2, 1.0])), (0,)),
+    Fault(
+        'the force of the left wheel had the other sign', partial(_driven, by=LEFT_FLIPPED), (0, 1)
+    ),
+    Fault('the speed was told in mm/s', partial(_rescaled, units=np.array([1e-3, 1.0])), (0,)),
+    Fault('the speed was told in cm/s', partial(_rescaled, units=np.array([1e-2, 1.0])), (0,)),
     Fault(
         'the turn rate was told in degrees',
-        partial(_told, units=np.array([1.0, np.pi / 180.0])),
+        partial(_rescaled, units=np.array([1.0, np.pi / 180.0])),
         (1,),
     ),
 )
@@ -97,7 +101,7 @@ def _shares(stretches: tuple[Stretch, ...], space: Space) -> Array:
     Around its mean; not a number where it hardly moves.
     """
     motion = motion_of(stretches)
-    noise = rms_of_each(np.array([white_noise(s.twist[s.used > 0]) for s in stretches]))
+    noise = rms_of_each(np.array([white_noise(s.twist[s.used]) for s in stretches]))
     error = rms_of_each(simulation_errors(space, stretches, space.prior()))
     moves = motion > BEYOND_NOISE * noise + NOTHING
     return np.where(moves, error / np.where(moves, motion, 1.0), np.nan)

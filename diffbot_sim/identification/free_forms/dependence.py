@@ -53,6 +53,10 @@ class Dependence:
     p_block: float
     p_folds: float = nan
 
+    def adapted(self, fit: Fit) -> Array:
+        """Return where u and gains of a fit shift to, once realised."""
+        return fit.point + self.adaptation
+
     @property
     def p_value(self) -> float:
         """The chance of such a fall."""
@@ -102,7 +106,7 @@ def realised(fit: Fit, like: Dependence) -> Dependence:
     )
     bounds = np.concatenate([low, -MOST * units]), np.concatenate([high, MOST * units])
     size = len(known.centre)
-    starts = [np.concatenate([fit.u, fit.gains, share * like.amounts]) for share in SHARES]
+    starts = [np.append(fit.point, share * like.amounts) for share in SHARES]
     start = min(starts, key=lambda at: float(huber(errors(at)).sum()))
     point, _ = minimise(errors, start, prior, bounds, EVALUATIONS, rounds=1)
     left = errors(point)
@@ -130,8 +134,7 @@ def against_the_model(fit: Fit, dependence: Dependence) -> Dependence:
     Errors jump where a wheel just breaks away, and fits end in any of many hollows: a better one
     is no merit of the form that found it.
     """
-    at = np.concatenate([fit.u, fit.gains]) + dependence.adaptation
-    u, gains = np.split(at, [len(fit.u)])
+    u, gains = np.split(dependence.adapted(fit), [len(fit.u)])
     alone = fit_prediction(fit.space, fit.stretches, u, gains)
     gained = fit.deviance(fit.sigma) - alone.deviance(fit.sigma)
     if gained <= 0.0:
@@ -163,8 +166,7 @@ def acting(fit: Fit, basis: Basis, at: Array, stretches: Sequence[Stretch]) -> A
 
 def beside(fit: Fit, dependence: Dependence) -> Array:
     """Return whitened errors where a realised dependence acts besides, shape (n, 2)."""
-    adapted = np.concatenate([fit.u, fit.gains]) + dependence.adaptation
-    at = np.append(adapted, dependence.amounts)
+    at = np.append(dependence.adapted(fit), dependence.amounts)
     return acting(fit, dependence.basis, at, fit.stretches)
 
 

@@ -24,7 +24,7 @@ def by_place(stretches: Sequence[Stretch]) -> Order:
 
     Indices of shape (n,), along strips to and fro.
     """
-    x, y = np.concatenate([_places(stretch)[stretch.used > 0] for stretch in stretches]).T
+    x, y = np.concatenate([_places(stretch)[stretch.used] for stretch in stretches]).T
     strip = np.argsort(np.argsort(x, kind='stable')) * STRIPS // len(x)
     return np.lexsort((np.where(strip % 2, -y, y), strip))
 

@@ -109,8 +109,7 @@ def _taken(view: View, knots: Array, force: Array) -> Array:
 
 def _errors(free: Fit, points: Sequence[int], force: Array) -> Array:
     """Return the standard errors of the limits [N], shape (n,)."""
-    jacobian = free.jacobian.reshape(-1, free.jacobian.shape[-1])
-    spread = sandwich(jacobian, free.whitened.ravel(), free.prior_information)
+    spread = sandwich(free.slopes, free.whitened.ravel(), free.prior_information)
     scale = np.array([spec.scale for spec in EmpiricalLimit.specs()[1:]])
     # What is hardly known at all may have a variance below zero, by rounding.
     known = np.maximum(np.diag(spread)[points], 0.0)

@@ -143,7 +143,7 @@ def _is_near(one: Moment, other: Moment, span: float) -> bool:
 
 def _windows(view: View) -> _Windows:
     """Add up errors in windows, one for each sample, where nothing near is unsteady."""
-    time, used = view.stretch.time, view.stretch.used > 0
+    time, used = view.stretch.time, view.stretch.used
     errors = np.clip(view.innovation / view.fit.sigma, -MOST_OF_SAMPLE, MOST_OF_SAMPLE)
 
     def within(values: Array, margin: float) -> Array:

@@ -58,7 +58,7 @@ def _eased_once(fit: Fit, held_out: Stretches) -> tuple[Fit, Stretches] | None:
     def pushed(stretches: Stretches) -> Stretches:
         return again(friction.basis, fit, stretches).pushed(stretches, friction.amounts)
 
-    u, gains = np.split(np.concatenate([fit.u, fit.gains]) + friction.adaptation, [len(fit.u)])
+    u, gains = np.split(friction.adapted(fit), [len(fit.u)])
     better = fit_prediction(fit.space, pushed(fit.stretches), u, gains)
     return None if _hardest_hold(better) > MOST * _holding(better) else (better, pushed(held_out))
 

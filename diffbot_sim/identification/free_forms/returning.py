@@ -32,12 +32,11 @@ def _visits(basis: Basis, stretches: tuple[Stretch, ...]) -> Iterator[NDArray[np
     """Return the used samples of each visit, and soon after, as rows of all stretches together."""
     begin = 0
     for values, stretch in zip(basis.values, stretches, strict=True):
-        used = stretch.used > 0
-        felt = _felt(np.any(values != 0.0, axis=(1, 2)), stretch.time)[used]
+        felt = _felt(np.any(values != 0.0, axis=(1, 2)), stretch.time)[stretch.used]
         edges = np.flatnonzero(np.diff(felt, prepend=False, append=False))
         for first, end in edges.reshape(-1, 2):
             yield begin + np.arange(first, end)
-        begin += int(np.count_nonzero(used))
+        begin += int(np.count_nonzero(stretch.used))
 
 
 def _felt(there: NDArray[np.bool_], time: Array) -> NDArray[np.bool_]:

@@ -150,8 +150,8 @@ def _held_out_chance(fit: Fit, dependence: Dependence, held_out: Sequence[Stretc
     """Return the chance of the fall of the held-out loss."""
     begun = restarted(fit.model, held_out)
     before = huber(whitened(begun, fit.model, fit.gains, fit.sigma))
-    adapted = np.concatenate([fit.u, fit.gains]) + dependence.adaptation
-    at = np.concatenate([adapted, dependence.amounts])
+    adapted = dependence.adapted(fit)
+    at = np.append(adapted, dependence.amounts)
     begun = restarted(fit.space.model(adapted[: len(fit.u)]), held_out)
     basis = again(dependence.basis, fit, begun)
     return chance_of(before - huber(acting(fit, basis, at, begun)))

@@ -149,8 +149,8 @@ def lateness_of(values: Mapping[str, float]) -> float:
     return sum(values.get(name, 0.0) for name in LATE)
 
 
-def lag_behind_pose(odometry: Odometry, of: Components = TWIST) -> float:
-    """Return by how much a twist, or a part of it, lags the change of the pose [s].
+def lag_behind_pose(odometry: Odometry) -> float:
+    """Return by how much twists lag the change of the pose [s].
 
     0 where that is not sure.
     """
@@ -158,16 +158,14 @@ def lag_behind_pose(odometry: Odometry, of: Components = TWIST) -> float:
     if path is None:
         return 0.0
     step = median_interval(odometry.time) / FINENESS
-    errors = partial(_errors, odometry, path, of)
+    errors = partial(_errors, odometry, path, TWIST)
     lags = np.arange(-FINENESS, LONGEST / step) * step
     best = float(lags[int(np.argmin([_cost(errors(lag)) for lag in lags]))])
     found = minimize_scalar(
         lambda lag: _cost(errors(lag)), bounds=(best - step, best + step), method='bounded'
     )
     left = errors(found.x)
-    share = np.sqrt(
-        np.nanmean(left**2, axis=0) / (np.mean(odometry.twist[:, of] ** 2, axis=0) + TINY**2)
-    )
+    share = np.sqrt(np.nanmean(left**2, axis=0) / (np.mean(odometry.twist**2, axis=0) + TINY**2))
     return float(found.x) if share.min() < ALIKE and _surely_less(left, errors(0.0)) else 0.0
 
 

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diffbot_sim.errors import DataError
 from diffbot_sim.identification.recordings.acting import added_up
@@ -49,7 +50,7 @@ class Stretch:
     way: Array
     pose: Array | None
     start: State
-    used: Array
+    used: NDArray[np.bool_]
     unheard: Unheard
     push: Array | None = None
 
@@ -125,7 +126,7 @@ def largest_command(stretches: Sequence[Stretch]) -> float:
 
 def motion_of(stretches: Sequence[Stretch]) -> Array:
     """Return how far v and ω are spread around their means where they count, shape (2,)."""
-    used = [stretch.twist[stretch.used > 0] for stretch in stretches]
+    used = [stretch.twist[stretch.used] for stretch in stretches]
     return np.asarray(np.concatenate(used).std(axis=0))
 
 
@@ -179,9 +180,11 @@ def _stretch(run: Run, begin: float, end: float) -> Stretch:
     return Stretch(run, time, twist, np.ascontiguousarray(heading), way, pose, start, used, lost)
 
 
-def _used(name: str, time: Array) -> Array:
-    """Return which samples count in fits, 1 or 0; raises DataError where those are too few."""
-    used = (time > time[0] + SETTLING) & _in_time(time) if len(time) > FEW else np.zeros(1)
+def _used(name: str, time: Array) -> NDArray[np.bool_]:
+    """Return which samples count in fits; raises DataError where those are too few."""
+    used = np.zeros(len(time), bool)
+    if len(time) > FEW:
+        used = (time > time[0] + SETTLING) & _in_time(time)
     if np.count_nonzero(used) < FEWEST_SAMPLES:
         raise DataError(
             f'{name}: {len(time)} odometry samples, at most {HIGHEST_RATE:g} a second, are too '
@@ -189,10 +192,10 @@ def _used(name: str, time: Array) -> Array:
             f'{FEWEST_SAMPLES} must be left. Of a run that is divided {1.0 - FITTED_SHARE:.0%} '
             'are held out. Record longer, better two minutes.'
         )
-    return used.astype(float)
+    return used
 
 
-def _in_time(time: Array) -> Array:
+def _in_time(time: Array) -> NDArray[np.bool_]:
     """Say of each sample whether none was lost before it, so that means are over an interval."""
     since = np.diff(time, prepend=time[0])
     return np.asarray(since <= LATEST * np.quantile(since[1:], 0.9))

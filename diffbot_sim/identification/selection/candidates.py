@@ -70,7 +70,7 @@ def on_recordings(fit: Fit, recordings: Recordings) -> Fit:
     return replace(fit, stretches=restarted(fit.model, fitted))
 
 
-def reduce(fit: Fit, name: str) -> Fit:
+def fit_without(fit: Fit, name: str) -> Fit:
     """Fit the structure that lacks one of the effects."""
     kinds = tuple(kind for kind in fit.space.kinds if kind.name != name)
     space = Space(fit.space.declared, kinds)

@@ -73,7 +73,7 @@ def compare(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> Evidence:
     amounts, shapes = _added(small, large)
     of_time = _adds_law_of_time(small, large)
     return Evidence(
-        delta_bic=ratio - _price(small, large, large.whitened.size),
+        delta_bic=ratio - large.price(added),
         p_value=float(stats.chi2.sf(ratio, added)),
         p_block=nan if _known_to_few(large, amounts) else wald(large, amounts, shapes),
         held_out_gain=gain,
@@ -105,13 +105,13 @@ def delta_bic(first: Fit, second: Fit) -> float:
     """Return how much lower the second's BIC is than the first's; they need not be nested."""
     sigma = np.minimum(first.sigma, second.sigma)
     fall = first.deviance(sigma) - second.deviance(sigma)
-    return fall - _price(first, second, second.whitened.size)
+    return fall - second.price(len(second.u) - len(first.u))
 
 
 def delta_bic_beyond_past(first: Fit, second: Fit) -> float:
     """Return the same where errors may be those of counts, as they are or beyond their past."""
     fall = float(_falls_beyond(first, second).sum())
-    return fall - _price(first, second, second.whitened.size)
+    return fall - second.price(len(second.u) - len(first.u))
 
 
 def delta_bic_of_speed(first: Fit, second: Fit) -> float:
@@ -126,7 +126,8 @@ def delta_bic_of_both(first: Fit, second: Fit) -> float:
 
 def _delta_bics(first: Fit, second: Fit) -> Array:
     """Return that for what is told of v, and of ω, shape (2,)."""
-    return _falls_beyond(first, second) - _price(first, second, len(second.whitened))
+    price = (len(second.u) - len(first.u)) * np.log(len(second.whitened))
+    return np.asarray(_falls_beyond(first, second) - price)
 
 
 def _falls_beyond(first: Fit, second: Fit) -> Array:
@@ -145,10 +146,6 @@ def _falls_beyond(first: Fit, second: Fit) -> Array:
     counted = np.sum(before[1:] * before[:-1], axis=0) < COUNTED * np.sum(before**2, axis=0)
     alike = counted & (as_they_are > -MUCH_LARGER * weight)
     return np.asarray(np.where(alike, np.maximum(beyond, as_they_are), as_they_are))
-
-
-def _price(first: Fit, second: Fit, samples: int) -> float:
-    return (len(second.u) - len(first.u)) * float(np.log(samples))
 
 
 def held_out_gain(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> tuple[float, float]:
@@ -185,10 +182,8 @@ def beside_others(
 
     To first order around the fit; of both is taken out what else is free but the shapes.
     """
-    jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
-    free = np.delete(jacobian, [*amounts, *shapes], axis=1)
-    departure = (fit.u - fit.space.prior())[amounts]
-    return apart(fit.whitened, free, jacobian[:, amounts], departure)
+    free = np.delete(fit.slopes, [*amounts, *shapes], axis=1)
+    return apart(fit.whitened, free, fit.slopes[:, amounts], fit.departure[amounts])
 
 
 def wald(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
@@ -198,13 +193,12 @@ def wald(fit: Fit, amounts: Sequence[int], shapes: Sequence[int]) -> float:
     it the same data may allow twice the amount twice as late. How many were tried is counted by
     `Evidence.of_best`.
     """
-    jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
-    kept = np.delete(np.arange(jacobian.shape[1]), shapes)
+    slopes = fit.slopes
+    kept = np.delete(np.arange(slopes.shape[1]), shapes)
     chosen = np.searchsorted(kept, amounts)
-    spread = sandwich(jacobian[:, kept], fit.whitened.ravel(), fit.prior_information[kept])
-    departure = (fit.u - fit.space.prior())[amounts]
-    blocks = informative_blocks(jacobian[:, amounts])
-    return wald_p(departure, spread[np.ix_(chosen, chosen)], blocks)
+    spread = sandwich(slopes[:, kept], fit.whitened.ravel(), fit.prior_information[kept])
+    blocks = informative_blocks(slopes[:, amounts])
+    return wald_p(fit.departure[amounts], spread[np.ix_(chosen, chosen)], blocks)
 
 
 def rise_without(fit: Fit, amounts: Sequence[int]) -> float:
@@ -212,13 +206,11 @@ def rise_without(fit: Fit, amounts: Sequence[int]) -> float:
 
     Too much where a noise model would follow what they no longer explain; never too little.
     """
-    jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
-    spread = np.linalg.pinv(jacobian.T @ jacobian + np.diag(fit.prior_information))
-    departure = (fit.u - fit.space.prior())[amounts]
+    spread = np.linalg.pinv(fit.slopes.T @ fit.slopes + np.diag(fit.prior_information))
+    departure = fit.departure[amounts]
     return float(departure @ np.linalg.pinv(spread[np.ix_(amounts, amounts)]) @ departure)
 
 
 def _known_to_few(fit: Fit, amounts: Sequence[int]) -> bool:
     """Say whether too few blocks know of some amounts to tell what is chance."""
-    jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
-    return informative_blocks(jacobian[:, amounts]) < len(amounts) + FEWEST
+    return informative_blocks(fit.slopes[:, amounts]) < len(amounts) + FEWEST

@@ -56,8 +56,7 @@ class Screen:
 
     def __init__(self, fit: Fit) -> None:
         self.fit = fit
-        jacobian = fit.jacobian.reshape(-1, fit.jacobian.shape[-1])
-        self._free, self._jacobian = Projection(jacobian), jacobian
+        self._free = Projection(fit.slopes)
         self._errors = self.project(influence(fit.whitened))
         self._scores = dict[type[Effect], Score]()
 
@@ -69,7 +68,7 @@ class Screen:
     @cached_property
     def _solve(self) -> Array:
         """What turns errors into parameters that explain them; not every screen is asked."""
-        return np.asarray(np.linalg.pinv(self._jacobian, rcond=1e-8))
+        return np.asarray(np.linalg.pinv(self.fit.slopes, rcond=1e-8))
 
     def adaptation(self, sensitivity: Array, amount: Array) -> Array:
         """Return how the free parameters shift when an amount of something is added."""

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.selection.candidates import approach, begun_anew, reduce
+from diffbot_sim.identification.selection.candidates import approach, begun_anew, fit_without
 from diffbot_sim.identification.selection.evidence import Evidence, compare
 from diffbot_sim.identification.selection.rivals import comes_up
 from diffbot_sim.identification.selection.screening import Screen
@@ -52,7 +52,7 @@ class Selection:
     def withdrawn(self, name: str, held_out: Sequence[Stretch], why: str) -> 'Selection':
         """Return the selection without one of the effects chosen, the others weighed anew."""
         kept, final = [key for key in self.support if key != name], self.without[name]
-        without, looks = {key: reduce(final, key) for key in kept}, _looks(self.trials)
+        without, looks = {key: fit_without(final, key) for key in kept}, _looks(self.trials)
         return replace(
             self,
             final=final,
@@ -138,7 +138,7 @@ def _prune(
         for kind in fit.space.kinds:
             rest = set(fit.space.kinds) - {kind}
             progress(f'trying without {kind.name}')
-            ends = [reduce(fit, kind.name), *(f for f in path if set(f.space.kinds) == rest)]
+            ends = [fit_without(fit, kind.name), *(f for f in path if set(f.space.kinds) == rest)]
             smaller[kind.name] = min(ends, key=lambda end: end.deviance(fit.sigma))
             evidence = compare(smaller[kind.name], fit, held_out)
             support[kind.name] = evidence.of_best(looks[kind.name])

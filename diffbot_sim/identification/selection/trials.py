@@ -8,10 +8,10 @@ from math import nan
 from scipy import stats
 
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.fitting.negligible import running_free, simulates_alike
+from diffbot_sim.identification.fitting.negligible import simulates_alike, uncorrected
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.selection.candidates import approach, complete, reduce
+from diffbot_sim.identification.selection.candidates import approach, complete, fit_without
 from diffbot_sim.identification.selection.evidence import (
     Evidence,
     compare,
@@ -89,7 +89,7 @@ class Trial:
         """
         if self.fit is None:
             return self.evidence.delta_bic
-        alone = shaken(reduce(self.fit, self.kind.name))
+        alone = shaken(fit_without(self.fit, self.kind.name))
         return min(self.evidence.delta_bic, delta_bic(alone, self.fit))
 
     @property
@@ -191,7 +191,7 @@ def _completed(
         outcome = BEREFT
     elif outcome == SUPPORTED and is_of_feedback(fit, kind.name):
         outcome = HEARD
-    elif outcome == SUPPORTED and simulates_alike(fit, running_free(screen.fit, fit.sigma)):
+    elif outcome == SUPPORTED and simulates_alike(fit, uncorrected(screen.fit, fit.sigma)):
         outcome = SLIGHT
     return Trial(kind, fit, evidence, outcome, looks)
 

@@ -8,8 +8,8 @@ from scipy import stats
 from diffbot_sim.identification.statistics.robust import huber
 from diffbot_sim.records import Array
 
-# Blocks of samples that count as independent.
-BLOCKS = 20
+# Blocks of samples whose gains are ranked.
+RANKED = 20
 # Parts of the runs, and into how many groups of parts they are dealt in turn.
 PARTS, FOLDS = 40, 5
 # What is known of amounts beforehand, the inverse variance in units of what chance makes of them:
@@ -26,7 +26,7 @@ def block_gain(gain: Array) -> tuple[float, float]:
     Signed ranks over blocks: a single block with a large gain, or loss, cannot decide. Where
     nothing gains or loses they prove nothing: nan.
     """
-    blocks = [block.mean() for block in np.array_split(gain, BLOCKS)]
+    blocks = [block.mean() for block in np.array_split(gain, RANKED)]
     if not np.any(blocks):
         return 0.0, nan
     return float(gain.mean()), float(stats.wilcoxon(blocks, alternative='greater').pvalue)

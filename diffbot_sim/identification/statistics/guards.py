@@ -6,6 +6,8 @@ from math import isnan, log
 import numpy as np
 from scipy import stats
 
+from diffbot_sim.identification.statistics.gains import RANKED
+
 # Three guards must agree. The likelihood ratio, corrected for the number tried, guards against
 # chance; the block test against disturbances that are no white noise; the gain in data that it
 # was not fitted to, held out or other parts of the runs, against fitting those.
@@ -18,8 +20,8 @@ BOTH_LEVEL = float(stats.combine_pvalues([BLOCK_LEVEL, ELSEWHERE_LEVEL]).pvalue)
 # Held-out data are three tenths of a run, or less, and know about half as much as parts of the
 # rest of it.
 WEIGHTS = (1.0, 2.0)
-# Signed ranks of twenty blocks are never surer than this.
-SUREST = 2.0**-20
+# Signed ranks of so many blocks are never surer than this.
+SUREST = 2.0**-RANKED
 
 # What lowers the BIC by less tells structures apart by no more than chance might: above it Kass
 # and Raftery (1995) call evidence very strong.

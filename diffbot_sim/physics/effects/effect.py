@@ -36,7 +36,7 @@ class Effect:
     kernel: compiled `kernel(at, value, *state, *parameters) -> value`.
     friction_kernel: compiled, likewise, for stage WHEEL_FRICTION: of what acts elsewhere, but is
     felt there, too.
-    states: how many numbers of state it keeps (stage ACTUATOR or COMMAND only).
+    states: how many numbers of state it keeps (stages COMMAND, ACTUATOR and DRIVETRAIN only).
     update: compiled, same arguments; returns the state after `at.elapsed` seconds.
     dissipative: whether it can only take energy away.
     is_sought: whether identification looks for it; False for mere descriptions, and for what takes
