@@ -11,12 +11,9 @@ from uuid import uuid4
 from diffbot_sim.physics.compiled import Function, Pointer, compiled, digest_of, entry
 from diffbot_sim.physics.dynamics import SIGNATURES, Dynamics
 from diffbot_sim.physics.effects import Effect
-from diffbot_sim.physics.instant import gather, nominal_balance, nominal_law
+from diffbot_sim.physics.instant import EFFECTS, gather, nominal_balance, nominal_law
 from diffbot_sim.physics.runge_kutta import runge_kutta
 from diffbot_sim.physics.stages import Load, Stage, Traction
-
-# Where the first effect's parameters stand in Model.pack().
-BODY_PARAMETERS = 9
 
 
 class _Link(NamedTuple):
@@ -63,7 +60,7 @@ def _key(kinds: tuple[type[Effect], ...]) -> str:
 
 def _links(kinds: tuple[type[Effect], ...]) -> dict[Stage, tuple[_Link, ...]]:
     links: dict[Stage, tuple[_Link, ...]] = dict.fromkeys(Stage, ())
-    first, state = BODY_PARAMETERS, 0
+    first, state = EFFECTS, 0
     for kind in kinds:
         last, last_state = first + len(kind.specs()), state + kind.states
         link = _Link(kind.kernel, kind.update, first, last, state, last_state)

@@ -6,6 +6,11 @@ from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.stages import Balance, Law, Load, Traction
 from diffbot_sim.records import Array
 
+# Where the robot's numbers, and those of its law of friction, stand among all that compiled code
+# reads; behind them come the effects'.
+MASS, INERTIA, HALF_SEPARATION, WHEEL_RADIUS, STATIC, COULOMB, EXCESS, VISCOUS, STRIBECK = range(9)
+EFFECTS = STRIBECK + 1
+
 
 class Inputs(NamedTuple):
     """What acts from outside: commanded traction [N], and a push on the body [N, N·m]."""
@@ -48,18 +53,18 @@ def nominal_law(
     params: Array, side: float, direction: float, traction: float, balance: Balance
 ) -> Law:
     """Return the friction law that both wheels share, for one of them."""
-    own = (params[4], params[5], params[6], params[7], params[8])
-    return Law(side, direction, traction, balance.mass / params[0], *own)
+    own = (params[STATIC], params[COULOMB], params[EXCESS], params[VISCOUS], params[STRIBECK])
+    return Law(side, direction, traction, balance.mass / params[MASS], *own)
 
 
 @compiled
 def nominal_balance(params: Array, traction: Traction, load: Load) -> Balance:
     """Put traction and load on the rigid body of eqs. (7) and (11)."""
     return Balance(
-        params[0],
-        params[1],
+        params[MASS],
+        params[INERTIA],
         (traction.right + traction.left) + load.force,
-        (traction.right - traction.left) * params[2] + load.torque,
+        (traction.right - traction.left) * params[HALF_SEPARATION] + load.torque,
         load.gravity_x,
         load.gravity_y,
     )
@@ -70,7 +75,7 @@ def gather(
     params: Array, traction: Traction, load: Load, balance: Balance, right: Law, left: Law
 ) -> Instant:
     """Bring the stages' results together."""
-    body = (balance.mass, balance.inertia, params[2])
+    body = (balance.mass, balance.inertia, params[HALF_SEPARATION])
     force = balance.force + balance.mass * balance.gravity_x
     return Instant(
         *body,

@@ -47,7 +47,7 @@ class Model:
         return self.robot.half_separation * prod(effect.track for effect in self.effects)
 
     def pack(self) -> Array:
-        """Return the numbers that the compiled code reads: m, J, b, r, the law, the effects."""
+        """Return what compiled code reads: the numbers that `instant` names, then the effects'."""
         robot, law = self.robot, self.friction.law()
         rubbing = (law.static, law.coulomb, law.excess, law.viscous, law.stribeck)
         body = (robot.mass, robot.inertia, self.half_separation, robot.wheel_radius)

@@ -13,7 +13,12 @@ from diffbot_sim.physics.instant import Inputs
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import delay_of, moments_of
 from diffbot_sim.physics.simulation import (
+    FRICTION,
     OUTPUT_SIZE,
+    TRACTION,
+    TWIST,
+    WHEEL_ANGLE,
+    WHEEL_SPEED,
     initial_modes,
     initial_vector,
     observe,
@@ -101,27 +106,27 @@ class Plant:
     @property
     def wheel_angle(self) -> tuple[float, float]:
         """Angles of the right and left wheel [rad]."""
-        return self._pair(3)
+        return self._pair(WHEEL_ANGLE)
 
     @property
     def wheel_speed(self) -> tuple[float, float]:
         """Rim speeds of the right and left wheel [m/s]."""
-        return self._pair(5)
+        return self._pair(WHEEL_SPEED)
 
     @property
     def twist(self) -> tuple[float, float]:
         """v [m/s] and ω [rad/s]."""
-        return self._pair(7)
+        return self._pair(TWIST)
 
     @property
     def traction(self) -> tuple[float, float]:
         """Forces acting on the right and left wheel [N], after any actuator effect."""
-        return self._pair(9)
+        return self._pair(TRACTION)
 
     @property
     def friction(self) -> tuple[float, float]:
         """F_fr of the right and left wheel [N]: eq. (13), positive opposes forward motion."""
-        return self._pair(11)
+        return self._pair(FRICTION)
 
     def _pair(self, column: int) -> tuple[float, float]:
         return float(self._row[column]), float(self._row[column + 1])

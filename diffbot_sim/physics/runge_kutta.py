@@ -5,7 +5,7 @@ from typing import Any
 
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.contact import LEFT, RIGHT, Modes, accelerations, sliding_reaction
-from diffbot_sim.physics.instant import Inputs, Instant
+from diffbot_sim.physics.instant import WHEEL_RADIUS, Inputs, Instant
 from diffbot_sim.physics.stages import Motion
 from diffbot_sim.physics.vector import (
     SPEED_LEFT,
@@ -66,7 +66,8 @@ def _slope(params: Array, at: Motion, now: Instant, modes: Modes) -> tuple[float
     """Return dz/dt: eqs. (5), (7), (11) with friction (13), in the order of z."""
     right, left = accelerations(now, sliding_reaction(at, now, modes), modes)
     dx, dy = at.v * cos(at.heading), at.v * sin(at.heading)
-    return dx, dy, at.omega, at.speed_right / params[3], at.speed_left / params[3], right, left
+    r = params[WHEEL_RADIUS]
+    return dx, dy, at.omega, at.speed_right / r, at.speed_left / r, right, left
 
 
 @compiled

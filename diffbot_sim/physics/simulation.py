@@ -21,8 +21,8 @@ from diffbot_sim.physics.stepper import advance, update_contacts
 from diffbot_sim.physics.vector import STATE_SIZE, copy_state, evaluate, motion_at
 from diffbot_sim.records import Array, Commands, Trajectory
 
-# Columns of the table that drive() fills after the state z: twist, traction, friction.
-OUTPUT_SIZE = STATE_SIZE + 6
+# Where things begin in a row of output: the state z, and what follows from it, in pairs.
+POSE, WHEEL_ANGLE, WHEEL_SPEED, TWIST, TRACTION, FRICTION, OUTPUT_SIZE = 0, 3, 5, 7, 9, 11, 13
 
 
 def simulate(
@@ -56,12 +56,12 @@ def simulate(
     )
     return Trajectory(
         time=times,
-        pose=out[:, 0:3],
-        wheel_angle=out[:, 3:5],
-        wheel_speed=out[:, 5:7],
-        twist=out[:, 7:9],
-        traction=out[:, 9:11],
-        friction=out[:, 11:13],
+        pose=out[:, POSE:WHEEL_ANGLE],
+        wheel_angle=out[:, WHEEL_ANGLE:WHEEL_SPEED],
+        wheel_speed=out[:, WHEEL_SPEED:TWIST],
+        twist=out[:, TWIST:TRACTION],
+        traction=out[:, TRACTION:FRICTION],
+        friction=out[:, FRICTION:],
     )
 
 
@@ -194,9 +194,9 @@ def observe(
     reaction = contact.reaction_at(laws, params, states, at, inputs, modes)
     now = instant_at(laws, params, states, at, inputs, modes)
     copy_state(z, row)
-    row[7], row[8] = at.v, at.omega
-    row[9], row[10] = now.traction_right, now.traction_left
-    row[11], row[12] = reaction.right, reaction.left
+    row[TWIST], row[TWIST + 1] = at.v, at.omega
+    row[TRACTION], row[TRACTION + 1] = now.traction_right, now.traction_left
+    row[FRICTION], row[FRICTION + 1] = reaction.right, reaction.left
 
 
 @entry(

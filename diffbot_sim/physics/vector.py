@@ -2,7 +2,7 @@
 
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.dynamics import Laws
-from diffbot_sim.physics.instant import Inputs, Instant
+from diffbot_sim.physics.instant import HALF_SEPARATION, WHEEL_RADIUS, Inputs, Instant
 from diffbot_sim.physics.kinematics import body_twist, wheel_speeds
 from diffbot_sim.physics.stages import Motion
 from diffbot_sim.records import Array
@@ -24,21 +24,23 @@ def copy_state(z: Array, into: Array) -> None:
 @compiled
 def twist_of(params: Array, z: Array) -> tuple[float, float]:
     """Return speed [m/s] and turn rate [rad/s] of the moment."""
-    return _of_body(z[SPEED_RIGHT], z[SPEED_LEFT], params[2])
+    return _of_body(z[SPEED_RIGHT], z[SPEED_LEFT], params[HALF_SEPARATION])
 
 
 @compiled
 def way_of(params: Array, z: Array) -> tuple[float, float]:
     """Return way [m] and turn [rad] since the wheels stood at angle 0."""
-    return _of_body(params[3] * z[ANGLE_RIGHT], params[3] * z[ANGLE_LEFT], params[2])
+    r = params[WHEEL_RADIUS]
+    return _of_body(r * z[ANGLE_RIGHT], r * z[ANGLE_LEFT], params[HALF_SEPARATION])
 
 
 @compiled
 def roll(params: Array, z: Array, way: float, turn: float, share: float) -> None:
     """Turn the wheels, by a share, to where they stand after a way [m] and a turn [rad]."""
-    right, left = _of_wheels(way, turn, params[2])
-    z[ANGLE_RIGHT] += share * (right / params[3] - z[ANGLE_RIGHT])
-    z[ANGLE_LEFT] += share * (left / params[3] - z[ANGLE_LEFT])
+    right, left = _of_wheels(way, turn, params[HALF_SEPARATION])
+    r = params[WHEEL_RADIUS]
+    z[ANGLE_RIGHT] += share * (right / r - z[ANGLE_RIGHT])
+    z[ANGLE_LEFT] += share * (left / r - z[ANGLE_LEFT])
 
 
 @compiled

@@ -22,6 +22,7 @@ from diffbot_sim.physics.correction import correct, put
 from diffbot_sim.physics.dynamics import ARRAY, FUNCTION_TYPES, INTEGERS, MATRIX, Dynamics
 from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.encoders import measured
+from diffbot_sim.physics.instant import HALF_SEPARATION, INERTIA, MASS
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.simulation import (
@@ -166,17 +167,18 @@ def _predict(  # type: ignore[no-untyped-def]
             )
             interval = time - times[k - 1]
             v, omega = measured(params, means, z, before, interval)
-            missed_v, missed = twist[k, 0] - v, twist[k, 1] - omega
-            by_v, by_omega = taken[k, 0] * missed_v, taken[k, 1] * missed
+            missed_v, missed_omega = twist[k, 0] - v, twist[k, 1] - omega
+            by_v, by_omega = taken[k, 0] * missed_v, taken[k, 1] * missed_omega
             if min(weight[k, 0], weight[k, 1]) < UNKNOWN:
-                put(z, modes, params[2], by_v, by_omega)
+                put(z, modes, params[HALF_SEPARATION], by_v, by_omega)
             else:
-                correct(z, modes, params[2], by_v, by_omega)
-            out[k, 0], out[k, 1] = weight[k, 0] * missed_v, weight[k, 1] * missed
+                correct(z, modes, params[HALF_SEPARATION], by_v, by_omega)
+            out[k, 0], out[k, 1] = weight[k, 0] * missed_v, weight[k, 1] * missed_omega
             error_v, error_omega = (1.0 + means[0]) * out[k, 0], (1.0 + means[1]) * out[k, 1]
-            pushing = gains[2] ** interval * pushing + gains[1] * params[0] / interval * error_v
+            pushing = gains[2] ** interval * pushing + gains[1] * params[MASS] / interval * error_v
             turning = (
-                gains[5] ** interval * turning + gains[4] * params[1] / interval * error_omega
+                gains[5] ** interval * turning
+                + gains[4] * params[INERTIA] / interval * error_omega
             )
             roll(params, z, way[k, 0], way[k, 1], 1.0 - exp(-interval / ROLLED))
         z[HEADING] = heading[k]

@@ -105,11 +105,11 @@ def _carry(  # type: ignore[no-untyped-def]
         v, omega, pushing, turning = 0.0, 0.0, 0.0, 0.0
         for k in range(1, len(steps)):
             told_v = _along(steps[k, 0], v, omega, pushing, turning) + changes[k, 0, q]
-            told = _along(steps[k, 1], v, omega, pushing, turning) + changes[k, 1, q]
-            out[k, 0, q], out[k, 1, q] = -weight[k, 0] * told_v, -weight[k, 1] * told
+            told_omega = _along(steps[k, 1], v, omega, pushing, turning) + changes[k, 1, q]
+            out[k, 0, q], out[k, 1, q] = -weight[k, 0] * told_v, -weight[k, 1] * told_omega
             now_v = _along(steps[k, 2], v, omega, pushing, turning) + changes[k, 2, q]
-            now = _along(steps[k, 3], v, omega, pushing, turning) + changes[k, 3, q]
-            v, omega = now_v - taken[k, 0] * told_v, now - taken[k, 1] * told
+            now_omega = _along(steps[k, 3], v, omega, pushing, turning) + changes[k, 3, q]
+            v, omega = now_v - taken[k, 0] * told_v, now_omega - taken[k, 1] * told_omega
             pushing = memory[k, 0] * pushing + gain[k, 0] * out[k, 0, q]
             turning = memory[k, 1] * turning + gain[k, 1] * out[k, 1, q]
 

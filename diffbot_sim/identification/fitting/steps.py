@@ -14,6 +14,7 @@ from diffbot_sim.physics.correction import correct
 from diffbot_sim.physics.dynamics import ARRAY, FUNCTION_TYPES, INTEGERS, MATRIX, Dynamics
 from diffbot_sim.physics.embedding import embedded
 from diffbot_sim.physics.encoders import measured
+from diffbot_sim.physics.instant import HALF_SEPARATION
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.simulation import (
@@ -111,7 +112,7 @@ def _take(  # type: ignore[no-untyped-def]
 ) -> None:
     """Fill out: each step's end, the twist as measured and at that moment."""
     dynamics, drive = Dynamics(laws, settle, step), Drive(command_time, force, max_step)
-    b, current = params[2], -1
+    b, current = params[HALF_SEPARATION], -1
     for k in range(1, len(times)):
         current = command_at(drive, current, times[k - 1])
         restore(snapshots[k - 1], z, modes, states)
