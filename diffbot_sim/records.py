@@ -6,6 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+# The wheels in the order of columns.
+SIDES = ('right', 'left')
+# In a second: stamps of bags and messages are whole numbers of them.
+NANOSECONDS = 1_000_000_000
 
 
 @dataclass(frozen=True)

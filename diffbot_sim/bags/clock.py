@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from diffbot_sim.bags.series import NANOSECONDS, Series
+from diffbot_sim.bags.series import Series
+from diffbot_sim.records import NANOSECONDS
 
 # A leap of less [s] is told by no receipt: messages wait so long for each other.
 LEAST = 0.1

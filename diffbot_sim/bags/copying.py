@@ -17,8 +17,8 @@ from rosbags.typesys import (
 )
 
 from diffbot_sim.bags.messages import STORE
-from diffbot_sim.bags.series import NANOSECONDS
 from diffbot_sim.bags.storage import opened
+from diffbot_sim.records import NANOSECONDS
 
 
 @dataclass(frozen=True)

@@ -8,15 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diffbot_sim.bags.poses import TWIST
-from diffbot_sim.bags.series import (
-    LONGEST_SILENCE,
-    NANOSECONDS,
-    Ordered,
-    Stamps,
-    silence,
-    silences,
-)
+from diffbot_sim.bags.series import LONGEST_SILENCE, Ordered, Stamps, silence, silences
 from diffbot_sim.errors import BagError
+from diffbot_sim.records import NANOSECONDS
 from diffbot_sim.standing import is_moving
 
 

@@ -10,8 +10,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diffbot_sim.bags.series import NANOSECONDS, Ordered, silence, silences, usual_interval
-from diffbot_sim.records import Array
+from diffbot_sim.bags.series import Ordered, silence, silences, usual_interval
+from diffbot_sim.records import NANOSECONDS, Array
 
 # A topic comes at a steady rate if nine in ten of its intervals are whole numbers of the usual
 # one, within such a share of it, and few messages are missing from it. A slower one [ns] may be

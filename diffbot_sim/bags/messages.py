@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from rosbags.typesys import Stores, get_typestore
 
-from diffbot_sim.records import Array
+from diffbot_sim.records import NANOSECONDS, Array
 
 ODOMETRY = 'nav_msgs/msg/Odometry'
 WRENCH = 'geometry_msgs/msg/WrenchStamped'
@@ -68,7 +68,7 @@ def odometry(stamp: int, motion: Array, place: Array | None) -> Any:
 
 
 def _header(stamp: int, frame: str) -> Any:
-    seconds, rest = divmod(stamp, 10**9)
+    seconds, rest = divmod(stamp, NANOSECONDS)
     time = _TYPES['builtin_interfaces/msg/Time'](seconds, rest)
     return _TYPES['std_msgs/msg/Header'](time, frame)
 

@@ -8,8 +8,8 @@ from diffbot_sim.bags.clock import Leap
 from diffbot_sim.bags.lost import lost
 from diffbot_sim.bags.pauses import is_within
 from diffbot_sim.bags.poses import is_filled
-from diffbot_sim.bags.series import ABSURD, NANOSECONDS, Ordered, Series, Stamps, silences
-from diffbot_sim.records import Run
+from diffbot_sim.bags.series import ABSURD, Ordered, Series, Stamps, silences
+from diffbot_sim.records import NANOSECONDS, Run
 from diffbot_sim.standing import turning, unfilled
 
 MOST = 5  # holes that are told one by one

@@ -11,8 +11,8 @@ import yaml
 from diffbot_sim.bags.folder import METADATA
 from diffbot_sim.bags.raw import USUAL, Offer, Raw
 from diffbot_sim.bags.recording import RawWriter
-from diffbot_sim.bags.series import NANOSECONDS
 from diffbot_sim.errors import BagError
+from diffbot_sim.records import NANOSECONDS
 
 INFORMATION = 'rosbag2_bagfile_information'
 FAR = 2**63 - 1  # [ns]

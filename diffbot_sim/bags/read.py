@@ -12,11 +12,11 @@ from diffbot_sim.bags.lost import with_lost
 from diffbot_sim.bags.notes import notes_on, notes_on_clock
 from diffbot_sim.bags.pauses import pauses
 from diffbot_sim.bags.poses import pose_of, without_broken
-from diffbot_sim.bags.series import NANOSECONDS, Ordered, Series, Stamps, held, ordered
+from diffbot_sim.bags.series import Ordered, Series, Stamps, held, ordered
 from diffbot_sim.bags.storage import naming, read_series
 from diffbot_sim.bags.topics import Topics
 from diffbot_sim.errors import BagError
-from diffbot_sim.records import Array, Commands, Odometry, Run
+from diffbot_sim.records import NANOSECONDS, Array, Commands, Odometry, Run
 
 FEWEST = 50
 

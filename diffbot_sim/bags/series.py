@@ -6,11 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diffbot_sim.errors import BagError
-from diffbot_sim.records import Array
+from diffbot_sim.records import NANOSECONDS, Array
 
 Stamps = NDArray[np.int64]
 
-NANOSECONDS = 1_000_000_000
 # A clock that jumps further [ns] has been reset, or the bag holds two drives.
 LONGEST_STEP_BACK = NANOSECONDS
 LONGEST_GAP = 3600 * NANOSECONDS

@@ -13,6 +13,7 @@ from diffbot_sim.bags.messages import STORE, odometry_row, wrench_row
 from diffbot_sim.bags.series import Series
 from diffbot_sim.bags.topics import Topics, absolute, find_topics
 from diffbot_sim.errors import BagError
+from diffbot_sim.records import NANOSECONDS
 
 STORAGE = ('.mcap', '.db3')
 FORM = 'A bag is a folder that holds metadata.yaml, or one .mcap or .db3 file.'
@@ -43,7 +44,7 @@ def _read(reader: Any, topic: str, role: str) -> Series:
         message: Any = STORE.deserialize_cdr(data, source.msgtype)
         stamp = message.header.stamp
         received.append(time)
-        stamped.append(stamp.sec * 10**9 + stamp.nanosec)
+        stamped.append(stamp.sec * NANOSECONDS + stamp.nanosec)
         rows.append(ROWS[role](message))
     values = np.array(rows, dtype=float)
     return Series(topic, np.array(received), np.array(stamped), values, MEASURED[role])

@@ -9,10 +9,7 @@ import numpy as np
 
 from diffbot_sim.bags.folder import Message, write_bag
 from diffbot_sim.bags.messages import odometry, twist, wrench
-from diffbot_sim.bags.series import NANOSECONDS
-from diffbot_sim.records import Array, Run, Trajectory
-
-SIDES = ('right', 'left')
+from diffbot_sim.records import NANOSECONDS, SIDES, Array, Run, Trajectory
 
 
 def write_run(path: str | Path, run: Run, start_ns: int = 0) -> None:

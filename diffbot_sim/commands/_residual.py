@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from diffbot_sim.identification.result import Comparison
-from diffbot_sim.records import Array
+from diffbot_sim.records import NANOSECONDS, Array
 
 Series = dict[str, tuple[Array, Array]]
 
@@ -19,7 +19,7 @@ def residual_series(comparisons: Sequence[Comparison], offsets: Mapping[str, int
     merged: Series = {}
     for i, item in enumerate(comparisons):
         prefix = f'/{_namespace(i, item.run)}' if several else ''
-        time = item.time + offsets.get(item.run, 0) / 1e9
+        time = item.time + offsets.get(item.run, 0) / NANOSECONDS
         merged |= {f'{prefix}/{topic}': (time, rows) for topic, rows in _values(item).items()}
     return merged
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-NANOSECONDS = 1_000_000_000
+from diffbot_sim.records import NANOSECONDS
 
 
 @dataclass(frozen=True)

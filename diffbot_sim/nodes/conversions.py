@@ -19,9 +19,8 @@ from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
-from diffbot_sim.records import Array
+from diffbot_sim.records import NANOSECONDS, Array
 
-NANOSECONDS = 1_000_000_000
 WORLD, BODY = 'odom', 'base_link'
 JOINTS = ['right_wheel_joint', 'left_wheel_joint']
 

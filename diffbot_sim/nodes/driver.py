@@ -13,6 +13,7 @@ from diffbot_sim.nodes.outputs import DEPTH
 from diffbot_sim.nodes.parameters import Live, build, table
 from diffbot_sim.nodes.running import parse, parser, run
 from diffbot_sim.nodes.settings import DriverSettings
+from diffbot_sim.records import NANOSECONDS
 
 
 class Driver(Node):
@@ -36,7 +37,7 @@ class Driver(Node):
     def _on_odometry(self, message: Odometry) -> None:
         stamp = conversions.nanoseconds(message.header.stamp)
         self._first = stamp if self._first is None else self._first
-        elapsed = (stamp - self._first) / 1e9
+        elapsed = (stamp - self._first) / NANOSECONDS
         command = conversions.twist(*twist_at(self._segments, elapsed))
         if self._stamped:
             command = TwistStamped(header=message.header, twist=command)

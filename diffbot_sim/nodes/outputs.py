@@ -14,8 +14,8 @@ from diffbot_sim.nodes.conversions import Pair
 from diffbot_sim.nodes.odometer import Odometer
 from diffbot_sim.nodes.settings import SimulatorSettings
 from diffbot_sim.physics import Plant
+from diffbot_sim.records import SIDES
 
-SIDES = ('right', 'left')
 DEPTH = 10
 # Messages kept for a listener that is busy, so that a recording on a busy machine has no gap.
 KEPT = 1000

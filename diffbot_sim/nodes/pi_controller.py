@@ -7,17 +7,18 @@ from geometry_msgs.msg import Twist, TwistStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 
-from diffbot_sim.control.held import NANOSECONDS, Held
+from diffbot_sim.control.held import Held
 from diffbot_sim.control.loop import InnerLoop
 from diffbot_sim.control.pi import wheel_rates
 from diffbot_sim.nodes import conversions
 from diffbot_sim.nodes.conversions import Pair
-from diffbot_sim.nodes.outputs import DEPTH, SIDES
+from diffbot_sim.nodes.outputs import DEPTH
 from diffbot_sim.nodes.parameters import Live, build, table
 from diffbot_sim.nodes.running import parse, parser, run
 from diffbot_sim.nodes.settings import ControllerSettings
+from diffbot_sim.nodes.timing import QUIET
+from diffbot_sim.records import NANOSECONDS, SIDES
 
-QUIET = 5.0  # [s] between repeated warnings
 LONGEST = 0.1  # [s]; a gap in the odometry must not wind up the integral
 
 

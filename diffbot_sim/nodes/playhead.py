@@ -3,7 +3,7 @@
 from math import inf
 from time import monotonic
 
-from diffbot_sim.nodes.conversions import NANOSECONDS
+from diffbot_sim.records import NANOSECONDS
 
 
 class Playhead:

@@ -6,7 +6,6 @@ from math import inf
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from rclpy.clock import Clock, ClockType
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.logging import get_logger
 from rclpy.node import Node
@@ -18,6 +17,8 @@ from diffbot_sim.nodes import conversions
 from diffbot_sim.nodes.parameters import Live, build, table
 from diffbot_sim.nodes.running import overrides, parse, parser, run
 from diffbot_sim.nodes.settings import STORAGES, RecorderSettings
+from diffbot_sim.nodes.timing import steady_clock
+from diffbot_sim.records import NANOSECONDS
 
 WRENCH = 'geometry_msgs/msg/WrenchStamped'
 # Types of our own topics, to listen before anyone speaks; those of others are asked for.
@@ -31,7 +32,7 @@ LOOK_AGAIN = 0.2  # [s] between looks at who publishes
 FLUSH = 1.0  # [s] of messages that may be lost when the process is killed
 DEPTH = 1000  # messages that may wait while the disk is busy
 # [ns] that a message may have waited for others, sent again; more, and the clock was set back.
-LONGEST_WAIT = 30 * 10**9
+LONGEST_WAIT = 30 * NANOSECONDS
 
 
 class Source(NamedTuple):
@@ -56,8 +57,7 @@ class Recorder(Node):
         self._wanted = settings.topics
         self._look()
         self.create_timer(LOOK_AGAIN, self._look)
-        steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self.create_timer(FLUSH, self._flush, clock=steady)
+        self.create_timer(FLUSH, self._flush, clock=steady_clock())
         # Last of all: a signal that ends the node earlier leaves no bag that lacks its end.
         self._writer = recording(folder, settings.storage, _limits(settings))
         self.get_logger().info(f'recording to {folder}')

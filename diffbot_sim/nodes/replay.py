@@ -12,10 +12,10 @@ from rclpy.node import Node
 from diffbot_sim.bags.raw import raw_messages, span_of, topics_in
 from diffbot_sim.errors import BagError
 from diffbot_sim.nodes import conversions
-from diffbot_sim.nodes.conversions import NANOSECONDS
 from diffbot_sim.nodes.running import parse, parser, run
 from diffbot_sim.nodes.targets import chosen, commands
 from diffbot_sim.nodes.transport import HELP, SOON, Transport, spin
+from diffbot_sim.records import NANOSECONDS
 
 DEPTH = 1000
 PATIENCE = 5.0  # [s] to wait for listeners

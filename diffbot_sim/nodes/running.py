@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import Any
 
 import rclpy
-from rclpy.clock import Clock, ClockType
 from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.impl.implementation_singleton import rclpy_implementation
@@ -16,6 +15,7 @@ from rclpy.parameter import Parameter
 
 from diffbot_sim.errors import ConfigError
 from diffbot_sim.nodes.parameters import table
+from diffbot_sim.nodes.timing import steady_clock
 from diffbot_sim.parameters import Spec
 
 LOOK_UP = 0.2  # [s] that an idle node may sleep after a signal
@@ -66,7 +66,7 @@ def run(
             raise ExternalShutdownException
         node = make()
         # rclpy may wake an idle node for a signal before the context has ended: wake it again.
-        node.create_timer(LOOK_UP, lambda: None, clock=Clock(clock_type=ClockType.STEADY_TIME))
+        node.create_timer(LOOK_UP, lambda: None, clock=steady_clock())
         work(node)
     except ExternalShutdownException:
         pass

@@ -8,10 +8,10 @@ from geometry_msgs.msg import PoseWithCovarianceStamped, WrenchStamped
 from rclpy.node import Node
 from std_srvs.srv import Empty, SetBool, Trigger
 
-from diffbot_sim.control.held import NANOSECONDS, Held
+from diffbot_sim.control.held import Held
 from diffbot_sim.nodes import conversions
 from diffbot_sim.nodes.odometer import Odometer
-from diffbot_sim.nodes.outputs import DEPTH, SIDES, Outputs
+from diffbot_sim.nodes.outputs import DEPTH, Outputs
 from diffbot_sim.nodes.parameters import (
     Live,
     Values,
@@ -26,6 +26,7 @@ from diffbot_sim.nodes.settings import SimulatorSettings
 from diffbot_sim.nodes.timing import QUIET, Lockstep, OnClock
 from diffbot_sim.physics import Model, Plant
 from diffbot_sim.physics.state import State
+from diffbot_sim.records import NANOSECONDS, SIDES
 
 
 class Setup(NamedTuple):

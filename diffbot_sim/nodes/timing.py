@@ -7,9 +7,8 @@ from time import monotonic
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
-from diffbot_sim.control.held import NANOSECONDS
-from diffbot_sim.nodes.outputs import SIDES
 from diffbot_sim.nodes.pace import Pace
+from diffbot_sim.records import NANOSECONDS, SIDES
 
 SHORTEST_TIMER = 1e-3  # [s]; the executor cannot wake more often to any use
 NO_TIMER = 1e-6  # [s]; a tick at every turn of the executor
@@ -25,7 +24,7 @@ class OnClock:
     def __init__(self, node: Node, show: Act, advance: Act) -> None:
         self._node, self._show, self._advance = node, show, advance
         self._pace: Pace | None = None
-        self._timer = node.create_timer(1.0, self._on_timer, clock=_steady())
+        self._timer = node.create_timer(1.0, self._on_timer, clock=steady_clock())
         self._timer.cancel()
 
     def start(self, period: float) -> None:
@@ -70,7 +69,7 @@ class Lockstep:
         self._awaited: set[str] = set()
         self._allowed = 0.0
         self._shown = False
-        self._timer = node.create_timer(UNANSWERED, self._on_timer, clock=_steady())
+        self._timer = node.create_timer(UNANSWERED, self._on_timer, clock=steady_clock())
 
     def start(self, period: float) -> None:
         """Let time advance; how fast is up to those who answer."""
@@ -112,5 +111,6 @@ class Lockstep:
             self._repeat()
 
 
-def _steady() -> Clock:
+def steady_clock() -> Clock:
+    """Return a clock that nothing sets and no simulation time replaces."""
     return Clock(clock_type=ClockType.STEADY_TIME)
