@@ -11,6 +11,9 @@ from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForc
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array, Trajectory
 
+# Tables of what has no name.
+Table = EmpiricalForce | EmpiricalWheelForce | EmpiricalLimit
+
 NOTHING_MISSING = 'nothing_missing'
 EFFECTS_FOUND = 'effects_found'
 UNEXPLAINED = 'unexplained'
@@ -249,7 +252,7 @@ class Identification:
     identified: Model
     comparisons: tuple[Comparison, ...]
     advice: tuple[str, ...] = ()
-    empirical: EmpiricalForce | EmpiricalLimit | EmpiricalWheelForce | None = None
+    empirical: Table | None = None
     horizons: tuple[Horizon, ...] = ()
     runs: tuple[RunCheck, ...] = ()
     timings: tuple[Timing, ...] = ()

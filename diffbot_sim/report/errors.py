@@ -39,13 +39,14 @@ def error_rows(errors: Errors) -> list[ErrorRow]:
 
 
 def _row(key: str, error: ErrorNorm, floor: ErrorNorm) -> ErrorRow:
-    v_ratio = _ratio(error.v_rmse, floor.v_rmse)
-    omega_ratio = _ratio(error.omega_rmse, floor.omega_rmse)
+    v_ratio = ratio(error.v_rmse, floor.v_rmse)
+    omega_ratio = ratio(error.omega_rmse, floor.omega_rmse)
     v, omega = 1e3 * error.v_rmse, 1e3 * error.omega_rmse
     return ErrorRow(key, LABELS[key], v, omega, v_ratio, omega_ratio)
 
 
-def _ratio(error: float, floor: float) -> float:
+def ratio(error: float, floor: float) -> float:
+    """Return an error over the noise floor, nan where there is no noise."""
     return error / floor if floor > 0.0 else nan
 
 

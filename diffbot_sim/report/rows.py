@@ -12,6 +12,7 @@ from diffbot_sim.identification.result import (
 from diffbot_sim.parameters import Spec, specs
 from diffbot_sim.physics.effects import library
 from diffbot_sim.physics.model import Model
+from diffbot_sim.report.errors import ratio
 from diffbot_sim.report.numerals import estimate_text, significant, unit_text
 from diffbot_sim.report.sentences import alternatives, p_text, why
 
@@ -73,7 +74,7 @@ class RunRow:
 def run_row(run: RunCheck) -> RunRow:
     """Put the agreement of one run into words; v in mm/s, ω in mrad/s."""
     v, omega = (
-        f'{significant(1e3 * error)} ({significant(error / floor, 2) if floor else "–"})'
+        f'{significant(1e3 * error)} ({significant(ratio(error, floor), 2)})'
         for error, floor in (
             (run.error.v_rmse, run.noise_floor.v_rmse),
             (run.error.omega_rmse, run.noise_floor.omega_rmse),

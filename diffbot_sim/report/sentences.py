@@ -15,6 +15,7 @@ from diffbot_sim.identification.result import (
 )
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.report.numerals import (
+    DASH,
     estimate_text,
     significant,
     speed_text,
@@ -192,7 +193,7 @@ def why(run: RunCheck) -> str:
 def p_text(p: float) -> str:
     """Write a p-value; the smallest are told as a bound."""
     if not isfinite(p):
-        return '–'
+        return DASH
     return '< 1e-12' if p < 1e-12 else f'{p:.2g}'
 
 

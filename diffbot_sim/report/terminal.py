@@ -13,13 +13,13 @@ from diffbot_sim.report.remarks import remarks
 from diffbot_sim.report.rows import candidate_row, effect_row
 
 TOP = 5
-COLOURS = {'nothing_missing': 'green', 'effects_found': 'cyan', 'unexplained': 'yellow'}
+VERDICT_COLOURS = {'nothing_missing': 'green', 'effects_found': 'cyan', 'unexplained': 'yellow'}
 
 
 def print_summary(result: Identification, console: Console | None = None) -> None:
     """Print the verdict and the tables of errors, effects and best candidates."""
     console = console or Console(highlight=False)
-    style = f'bold {COLOURS.get(result.verdict, "")}'
+    style = f'bold {VERDICT_COLOURS.get(result.verdict, "")}'
     console.print(Text(sentences.verdict(result), style=style), '')
     for told in (
         sentences.of_declared(result),

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from math import isfinite
 
-from diffbot_sim.identification.fitting.coordinates import FREE_OF_ROBOT, WIDEST_FACTOR
+from diffbot_sim.identification.fitting.coordinates import FITTED_OF_ROBOT, WIDEST_FACTOR
 from diffbot_sim.identification.result import Estimate
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import UNSEEN
@@ -11,7 +11,7 @@ from diffbot_sim.identification.selection.trials import UNSEEN
 # An interval wider than this share of its value, either way, tells little of a parameter.
 WIDE = 0.2
 # What is fitted as a factor of its declared value, and stopped at the widest one.
-BY_FACTOR = (*FREE_OF_ROBOT, 'stribeck')
+BY_FACTOR = (*FITTED_OF_ROBOT, 'stribeck')
 DRIVES = {
     'mass': 'hard acceleration and braking, straight ahead',
     'inertia': 'turns that begin and end fast',

@@ -8,14 +8,13 @@ import numpy as np
 from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
 from diffbot_sim.identification.recordings.free_running import free_running_error
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.result import LIMIT, Structure
+from diffbot_sim.identification.result import LIMIT, Structure, Table
 from diffbot_sim.physics.effects import empirical_force, empirical_wheel_force
 from diffbot_sim.physics.effects.empirical_force import POINT_NAMES, POINTS, EmpiricalForce
 from diffbot_sim.physics.effects.empirical_limit import EmpiricalLimit
 from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForce
 from diffbot_sim.physics.model import Model
 
-Table = EmpiricalForce | EmpiricalWheelForce | EmpiricalLimit
 # What the table of a structure runs over, where that is not the structure's own variable.
 TABLE_OF = {'constant': 'time', 'rolling': 'wheel_speed', 'turning': 'omega'}
 # The term is kept when it lowers the held-out error, v and ω together, by this share.

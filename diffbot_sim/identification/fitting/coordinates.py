@@ -20,6 +20,8 @@ PRIOR_DEVIATION = 1.0
 EFFECT_DEVIATION = 100.0
 # What has no meaning while an effect is neutral has no prior to speak of.
 NO_PRIOR = 1e4
+# What is fitted of the robot; its geometry is known.
+FITTED_OF_ROBOT = ('mass', 'inertia')
 # Widest factor between a declared and a fitted mass, inertia or Stribeck coefficient.
 WIDEST_FACTOR = 30.0
 
@@ -55,7 +57,7 @@ class Space:
         """Coordinates of the nominal parameters."""
         robot = {spec.name: spec for spec in specs(self.declared.robot)}
         friction = {spec.name: spec for spec in specs(self.declared.friction)}
-        result = [_positive(robot[n], getattr(self.declared.robot, n)) for n in FREE_OF_ROBOT]
+        result = [_positive(robot[n], getattr(self.declared.robot, n)) for n in FITTED_OF_ROBOT]
         for name in self.declared.friction.active:
             declared = getattr(self.declared.friction, name)
             if name == 'mu_static':
@@ -120,9 +122,6 @@ class Space:
             np.array([c.low for c in self.coordinates]),
             np.array([c.high for c in self.coordinates]),
         )
-
-
-FREE_OF_ROBOT = ('mass', 'inertia')
 
 
 def _of_effect(kind: type[Effect], spec: Spec) -> Coordinate:
