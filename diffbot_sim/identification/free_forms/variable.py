@@ -9,12 +9,10 @@ from diffbot_sim.identification.recordings.stretches import Stretch
 
 # Axes of what acts on the body, and on each wheel.
 BODY, WHEELS = ('v', 'omega'), ('wheels', 'difference')
-# Parts of a force: that of all functions together, or of each wheel, or each way in the world.
-WHOLE, EACH_WHEEL, EACH_WAY = (
-    ('',),
-    ('on the right wheel', 'on the left wheel'),
-    ('along x', 'along y'),
-)
+# What has functions of its own: the force as a whole, or on each wheel, or each way in the world.
+WHOLE = ('',)
+EACH_WHEEL = ('on the right wheel', 'on the left wheel')
+EACH_WAY = ('along x', 'along y')
 
 
 @dataclass(frozen=True)
