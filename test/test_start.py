@@ -2,13 +2,15 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.recordings.start import start_of
 from diffbot_sim.identification.recordings.stretches import Stretch, whole
 from diffbot_sim.physics import Model, Robot
-from diffbot_sim.records import Run
+from diffbot_sim.physics.effects.effective_track import EffectiveTrack
+from diffbot_sim.records import Commands, Run
 
 HEAVY = Model(Robot(mass=13.0, inertia=0.3))
 STEP = 0.005
@@ -38,3 +40,17 @@ def test_robot_that_moves_fast_does_not_start_at_rest(model: Model, noise: float
 def test_robot_that_rests_starts_at_rest_exactly() -> None:
     start = start_of(HEAVY, begun_at(0.0, 4e-3), STEP)
     assert (start.v, start.omega) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize('push', [20.0, 30.0])
+def test_robot_that_is_thrown_back_at_once_starts_as_it_moved_before(push: float) -> None:
+    model, time = Model(effects=(EffectiveTrack(0.12),)), np.arange(0.0, 8.0, 0.02)
+    force = np.zeros((len(time), 2))
+    # It begins to turn on the spot, is pushed back while it does, and rolls on.
+    for since, both in ((4.7, (-3.0, 3.0)), (5.0, (-1.6, 1.6)), (5.13, (-push, -0.8 * push))):
+        force[time >= since] = both
+    force[time >= 5.33] = (-3.5, -2.5)
+    run = rehearse(model, Commands(time, force), Surroundings(), 1)
+    (stretch,) = whole([after(run, 5.0)])
+    start = start_of(model, stretch, STEP)
+    assert (start.v, start.omega) == pytest.approx(stretch.twist[:5].mean(axis=0), abs=0.02)

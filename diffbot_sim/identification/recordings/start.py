@@ -1,13 +1,13 @@
 """The first state of a stretch, as a model sees it: speeds that fit the first second best."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import least_squares
 
 from diffbot_sim.identification.recordings.measurement import simulated
-from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.recordings.stretches import FEW, Stretch
 from diffbot_sim.identification.statistics.robust import HUBER, huber
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.state import State
@@ -39,13 +39,24 @@ def start_of(model: Model, stretch: Stretch, max_step: float) -> State:
         run = simulated(model, stretch, time, start, max_step)
         return np.asarray(((twist - run.twist) / noise).ravel())
 
-    guess = np.array([first.v, first.omega])
-    best = least_squares(errors, guess, loss='huber', f_scale=HUBER, diff_step=1e-5, max_nfev=10)
-    # Robust, but without a limit: what is far from rest must tell, whatever the model errs.
-    at_rest, moving = (float(huber(errors(at)).sum()) for at in (np.zeros(2), best.x))
-    if at_rest < moving + REST:
+    def cost(at: Array) -> float:
+        # Robust, but without a limit: what is far from rest must tell, whatever the model errs.
+        return float(huber(errors(at)).sum())
+
+    best = _fitted(errors, np.array([first.v, first.omega]))
+    # The line that tells a first state leads to a hollow where the robot turns back at once.
+    at_first = twist[:FEW].mean(axis=0)
+    if cost(at_first) < cost(best):
+        best = _fitted(errors, at_first)
+    if cost(np.zeros(2)) < cost(best) + REST:
         return replace(first, v=0.0, omega=0.0)
-    return replace(first, v=float(best.x[0]), omega=float(best.x[1]))
+    return replace(first, v=float(best[0]), omega=float(best[1]))
+
+
+def _fitted(errors: Callable[[Array], Array], guess: Array) -> Array:
+    """Return the twist at the start that errs least, shape (2,), beginning from a guess."""
+    fit = least_squares(errors, guess, loss='huber', f_scale=HUBER, diff_step=1e-5, max_nfev=10)
+    return np.asarray(fit.x)
 
 
 def restarted(model: Model, stretches: Sequence[Stretch]) -> tuple[Stretch, ...]:
