@@ -60,7 +60,7 @@ def test_missing_effect_is_found_beside_a_declared_one_that_is_not_there() -> No
     assert told.unexplained is None
 
 
-@pytest.mark.parametrize('law', ['coulomb', 'coulomb_viscous'])
+@pytest.mark.parametrize('law', ['none', 'coulomb', 'coulomb_viscous'])
 def test_too_simple_a_law_of_friction_is_contradicted(law: str) -> None:
     declared = Model(friction=Friction(model=law))
     told = identify([drive(())], declared, kinds=NEAR)

@@ -52,7 +52,7 @@ def test_what_was_filtered_comes_back(time_constant: float, seed: int) -> None:
 
 
 def test_filtered_twists_do_not_make_a_robot_late() -> None:
-    answer = identify([filtered(driven((), Surroundings()), 0.06)], Model(), kinds=LATENESS)
+    answer = identify([filtered(driven((), Surroundings()), 0.06)], Model())
     assert answer.verdict == 'nothing_missing'
     (timing,) = answer.timings
     assert timing.taken == 'filter'
@@ -105,9 +105,10 @@ def coloured(run: Run, memory: float) -> Run:
     return replace(run, odometry=Odometry(seen.time, seen.twist + noise, None))
 
 
-def test_late_robot_with_coloured_noise_is_not_taken_for_a_filter() -> None:
+@pytest.mark.parametrize('memory', [0.05, 0.1])
+def test_late_robot_with_coloured_noise_is_not_taken_for_a_filter(memory: float) -> None:
     run = driven((ActuatorLag(0.08),), Surroundings(1e-5, 1e-5))
-    answer = identify([coloured(run, 0.05)], Model(), kinds=LATENESS)
+    answer = identify([coloured(run, memory)], Model(), kinds=LATENESS)
     assert [effect.name for effect in answer.effects] == ['actuator_lag']
     # Without a pose it may well be undecided whether the twists are means.
     assert 'filter' not in [it.taken for it in answer.timings]

@@ -278,9 +278,9 @@ def test_wheel_that_rubs_at_a_place_of_its_turn_is_told_by_its_angle() -> None:
     left, *_ = find_dependences(Screen(fit), held_out)
     assert left.basis.variable == 'friction_over_wheel_angle'
     assert left.basis.grid[0] == pytest.approx(1.0, rel=0.01)
-    assert re.search(
-        'N on the right wheel, .* N on the left wheel', describe(left, fit).description
-    )
+    told, strengths = describe(left, fit), left.basis.strengths(left.amounts)
+    assert re.search('N on the right wheel, .* N on the left wheel', told.description)
+    assert strengths[told.part] == max(strengths.values())
 
 
 @pytest.mark.parametrize('name', ['v', 'wheel_speed'])

@@ -18,11 +18,20 @@ from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.stages import Traction
 from diffbot_sim.physics.state import State
 from diffbot_sim.physics.stepper import advance, update_contacts
-from diffbot_sim.physics.vector import STATE_SIZE, copy_state, evaluate, motion_at
+from diffbot_sim.physics.vector import (
+    ANGLE_RIGHT,
+    SPEED_RIGHT,
+    STATE_SIZE,
+    X,
+    copy_state,
+    evaluate,
+    motion_at,
+)
 from diffbot_sim.records import Array, Commands, Trajectory
 
 # Where things begin in a row of output: the state z, and what follows from it, in pairs.
-POSE, WHEEL_ANGLE, WHEEL_SPEED, TWIST, TRACTION, FRICTION, OUTPUT_SIZE = 0, 3, 5, 7, 9, 11, 13
+POSE, WHEEL_ANGLE, WHEEL_SPEED = X, ANGLE_RIGHT, SPEED_RIGHT
+TWIST, TRACTION, FRICTION, OUTPUT_SIZE = range(STATE_SIZE, STATE_SIZE + 8, 2)
 
 
 def simulate(

@@ -44,11 +44,13 @@ def start_of(model: Model, stretch: Stretch, max_step: float) -> State:
         return float(huber(errors(at)).sum())
 
     best = _fitted(errors, np.array([first.v, first.omega]))
+    moving = cost(best)
     # The line that tells a first state leads to a hollow where the robot turns back at once.
     at_first = twist[:FEW].mean(axis=0)
-    if cost(at_first) < cost(best):
+    if cost(at_first) < moving:
         best = _fitted(errors, at_first)
-    if cost(np.zeros(2)) < cost(best) + REST:
+        moving = cost(best)
+    if cost(np.zeros(2)) < moving + REST:
         return replace(first, v=0.0, omega=0.0)
     return replace(first, v=float(best[0]), omega=float(best[1]))
 
