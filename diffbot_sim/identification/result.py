@@ -77,16 +77,17 @@ class Structure:
 
     axis: 'v' (force along x, N), 'omega' (torque, N·m), 'wheels' (force on each wheel, N) or
     'difference' (on one wheel, and against it on the other, N); variable: what it depends on;
-    strength: rms of the force or torque explained by that variable; p_value: block-robust.
-    worth: fall of the BIC when it acts. knots, force: the empirical curve, with force_error
-    its standard error, for a plot; part: of what, if not of all of it, such as one wheel. spot:
-    middle and radius [m] of the spot of the floor that it depends on, shape (3,); None where it
-    depends on none.
+    over: what its curve is drawn over, with the unit; strength: rms of the force or torque
+    explained by that variable; p_value: block-robust. worth: fall of the BIC when it acts. knots,
+    force: the empirical curve, with force_error its standard error, for a plot; part: of what, if
+    not of all of it, such as one wheel. spot: middle and radius [m] of the spot of the floor that
+    it depends on, shape (3,); None where it depends on none.
     """
 
     description: str
     axis: str
     variable: str
+    over: str
     strength: float
     p_value: float
     knots: Array

@@ -223,18 +223,9 @@ def _simulate(  # type: ignore[no-untyped-def]
     initial_modes(laws, params, states, z, modes, inputs_of(drive, current, 0.0, 0.0), times[0])
     for k, time in enumerate(times):
         if k > 0:
+            begin = times[k - 1]
             current = advance_held(
-                dynamics,
-                params,
-                states,
-                z,
-                modes,
-                drive,
-                current,
-                push,
-                times[k - 1],
-                time,
-                work,
+                dynamics, params, states, z, modes, drive, current, push, begin, time, work
             )
         inputs = inputs_of(drive, current, 0.0, 0.0)
         observe(laws, params, states, z, modes, inputs, time, out[k])

@@ -54,69 +54,6 @@ VARIABLES = {
     'traction': Variable('traction force [N]', lambda run: run.with_effects.traction.sum(axis=1)),
     'time': Variable('time [s]', lambda run: run.time),
 }
-# Radians everywhere, degrees on paper.
-ANGLES = (
-    'heading',
-    'friction_over_heading',
-    'wheel_angle',
-    'friction_over_wheel_angle',
-    'rhythm',
-    'gain_rhythm',
-    'force_steps',
-    'caster',
-)
-# Of variables in which structure without a name is looked for; the others are those above.
-STRUCTURE_LABELS = {
-    'constant': 'time [s]',
-    'turning': 'turn rate ω [rad/s]',
-    'turned': 'heading [rad]',
-    'cornering': 'v·ω [m/s²]',
-    'rhythm': 'phase [°]',
-    'gain_rhythm': 'phase [°]',
-    'wheel_angle': 'angle of the wheel, times the order [°]',
-    'friction_over_wheel_angle': 'angle of the wheel, times the order [°]',
-    'wheel_speed': 'speed of a wheel [m/s]',
-    'rolling': 'speed of a wheel [m/s]',
-    'arcs': 'speed of a wheel over that of turning alone, either way [-]',
-    'rolling_one_way': 'speed of a wheel, either way [m/s]',
-    'wheel_force': "a wheel's commanded force [N]",
-    'other_force': "the other wheel's commanded force [N]",
-    'force_steps': 'command over its step, as a phase [°]',
-    'rest_before': 'rest of a wheel before it starts [ln s]',
-    'way_since_reversal': 'way of a wheel since it turned back [m]',
-    'winding': 'way of a wheel since it turned back, wound up before [m]',
-    'time_since_reversal': 'time since the command changed its sign [s]',
-    'turn_since_reversal': 'turn since ω changed its sign [rad]',
-    'caster': 'rolling direction of a caster [°]',
-    'swing': 'time after a jump of v by 1 m/s [s]',
-    'yaw_swing': 'time after a jump of ω by 1 rad/s [s]',
-    'drive': 'force that drives a wheel, or brakes it [N]',
-    'force_over_speed': 'speed of a wheel, either way [m/s]',
-    'force_over_power': 'power asked of a wheel, or, below zero, taken [W]',
-    'limit': 'speed of a wheel, the way that the force drives it [m/s]',
-    'force_change': 'age of the command [s]',
-    'past_force': 'age of the command [s]',
-    'force_over_time': 'time [s]',
-    'friction_over_time': 'time [s]',
-    'time_of_push': 'time [s]',
-    'oscillation': 'time [s]',
-    'friction_over_heading': 'heading [°]',
-    'pull': 'time [s]',
-    'warmth': 'mean speed of a wheel lately, either way [m/s]',
-    'hill_x': 'x [m]',
-    'hill_y': 'y [m]',
-    'round_hill': 'distance from the middle of the hill or hollow [m]',
-    'place_x': 'x [m]',
-    'place_y': 'y [m]',
-    'patch': 'distance from the middle of the patch [m]',
-    'force_over_patch': 'distance from the middle of the patch [m]',
-}
-
-
-def structure_label(variable: str) -> str:
-    """Return the label of what a structure without a name depends on."""
-    labels = {name: it.label for name, it in VARIABLES.items()} | STRUCTURE_LABELS
-    return labels.get(variable, variable)
 
 
 def residual(run: Comparison, model: str, axis: int) -> Array:

@@ -7,14 +7,12 @@ import numpy as np
 from diffbot_sim.identification.result import Comparison, Errors, Identification, Structure
 from diffbot_sim.records import Array, Trajectory
 from diffbot_sim.report.dependence import (
-    ANGLES,
     VARIABLES,
     Curve,
     binned,
     pooled,
     residual,
     strongest,
-    structure_label,
 )
 from diffbot_sim.report.drawing import (
     COLOURS,
@@ -129,15 +127,14 @@ def _disturbance(runs: tuple[Comparison, ...], axis_: int, name: str) -> Figure:
 def structure_figure(structure: Structure) -> Figure:
     """Draw the empirical curve of what no effect accounts for."""
     spread = 1.96 * structure.force_error
-    turned = structure.variable in ANGLES
-    x = np.degrees(structure.knots) if turned else structure.knots
+    # Radians everywhere, degrees on paper.
+    in_degrees = structure.over.endswith('[°]')
+    x = np.degrees(structure.knots) if in_degrees else structure.knots
     y = structure.force
     colour = COLOURS['with_effects']
     data = [band(x, y - spread, y + spread, colour), line(x, y, 'estimate', colour)]
     force = TORQUE if structure.axis == 'omega' else FORCE
-    look = layout(
-        320, xaxis=axis(structure_label(structure.variable)), yaxis=axis(force), showlegend=False
-    )
+    look = layout(320, xaxis=axis(structure.over), yaxis=axis(force), showlegend=False)
     about = (
         'Estimate with its 95 % band, beside the friction and inertia that were fitted with it.'
     )

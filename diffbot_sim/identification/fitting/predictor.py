@@ -16,7 +16,7 @@ from numba import types
 from diffbot_sim.identification.recordings.start import PREDICTION_STEP
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.recordings.unheard import Unheard, all_heard
-from diffbot_sim.physics.compiled import entry
+from diffbot_sim.physics.compiled import compiled, entry
 from diffbot_sim.physics.composition import compose
 from diffbot_sim.physics.correction import correct, put
 from diffbot_sim.physics.dynamics import ARRAY, FUNCTION_TYPES, INTEGERS, MATRIX, Dynamics
@@ -111,6 +111,14 @@ def counted(stretch: Stretch, gains: Array) -> Unheard:
     return stretch.unheard if np.any(gains) else all_heard(len(stretch.time))
 
 
+@compiled
+def _disturbed(
+    gains: Array, inertia: float, interval: float, before: float, error: float
+) -> float:
+    """Return the disturbance after an error: what is remembered of it, and what that adds."""
+    return float(gains[2] ** interval * before + gains[1] * inertia / interval * error)
+
+
 @entry(
     types.void(
         *FUNCTION_TYPES,
@@ -120,66 +128,33 @@ def counted(stretch: Stretch, gains: Array) -> Unheard:
     )
 )
 def _predict(  # type: ignore[no-untyped-def]
-    laws,
-    settle,
-    step,
-    params,
-    states,
-    z,
-    command_time,
-    force,
-    max_step,
-    times,
-    twist,
-    means,
-    heading,
-    way,
-    gains,
-    taken,
-    weight,
-    push,
-    modes,
-    work,
-    out,
-    snapshots,
-) -> None:
+    laws, settle, step, params, states, z, command_time, force, max_step, times, twist, means,
+    heading, way, gains, taken, weight, push, modes, work, out, snapshots
+) -> None:  # fmt: skip
     """Fill out: innovation, corrected twist, disturbance; and a snapshot after each sample."""
     dynamics, drive = Dynamics(laws, settle, step), Drive(command_time, force, max_step)
     current = command_at(drive, -1, times[0])
     initial_modes(laws, params, states, z, modes, inputs_of(drive, current, 0.0, 0.0), times[0])
     pushing, turning = 0.0, 0.0
+    of_v, of_omega = gains[:3], gains[3:]
     for k, time in enumerate(times):
         if k > 0:
-            acting = (pushing + push[k - 1, 0], turning + push[k - 1, 1])
-            before = way_of(params, z)
+            begin, acting = times[k - 1], (pushing + push[k - 1, 0], turning + push[k - 1, 1])
+            interval, before = time - begin, way_of(params, z)
             current = advance_held(
-                dynamics,
-                params,
-                states,
-                z,
-                modes,
-                drive,
-                current,
-                acting,
-                times[k - 1],
-                time,
-                work,
+                dynamics, params, states, z, modes, drive, current, acting, begin, time, work
             )
-            interval = time - times[k - 1]
             v, omega = measured(params, means, z, before, interval)
-            missed_v, missed_omega = twist[k, 0] - v, twist[k, 1] - omega
-            by_v, by_omega = taken[k, 0] * missed_v, taken[k, 1] * missed_omega
+            missed = twist[k, 0] - v, twist[k, 1] - omega
+            by = taken[k, 0] * missed[0], taken[k, 1] * missed[1]
             if min(weight[k, 0], weight[k, 1]) < UNKNOWN:
-                put(z, modes, params[HALF_SEPARATION], by_v, by_omega)
+                put(z, modes, params[HALF_SEPARATION], by[0], by[1])
             else:
-                correct(z, modes, params[HALF_SEPARATION], by_v, by_omega)
-            out[k, 0], out[k, 1] = weight[k, 0] * missed_v, weight[k, 1] * missed_omega
-            error_v, error_omega = (1.0 + means[0]) * out[k, 0], (1.0 + means[1]) * out[k, 1]
-            pushing = gains[2] ** interval * pushing + gains[1] * params[MASS] / interval * error_v
-            turning = (
-                gains[5] ** interval * turning
-                + gains[4] * params[INERTIA] / interval * error_omega
-            )
+                correct(z, modes, params[HALF_SEPARATION], by[0], by[1])
+            out[k, 0], out[k, 1] = weight[k, 0] * missed[0], weight[k, 1] * missed[1]
+            at_end = (1.0 + means[0]) * out[k, 0], (1.0 + means[1]) * out[k, 1]
+            pushing = _disturbed(of_v, params[MASS], interval, pushing, at_end[0])
+            turning = _disturbed(of_omega, params[INERTIA], interval, turning, at_end[1])
             roll(params, z, way[k, 0], way[k, 1], 1.0 - exp(-interval / ROLLED))
         z[HEADING] = heading[k]
         out[k, 2], out[k, 3] = twist_of(params, z)

@@ -92,6 +92,7 @@ def _described(free: Fit, worth: float) -> Structure:
         ),
         axis='wheels',
         variable=LIMIT,
+        over='speed of a wheel, the way that the force drives it [m/s]',
         strength=rms(taken),
         p_value=wald(free, points, [end]),
         knots=knots,

@@ -179,6 +179,7 @@ def _described(fit: Fit, moments: list[Moment]) -> Structure:
         description=f'{what} at {said} that no effect of the library accounts for',
         axis=BODY[surest.axis],
         variable='time_of_push',
+        over='time [s]',
         strength=rms(force),
         p_value=surest.p_value,
         knots=knots,

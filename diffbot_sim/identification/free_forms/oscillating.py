@@ -129,6 +129,7 @@ def _described(fit: Fit, line: Line) -> Structure:
         ),
         axis=BODY[line.axis],
         variable='oscillation',
+        over='time [s]',
         strength=strength,
         p_value=line.p_value,
         knots=time,

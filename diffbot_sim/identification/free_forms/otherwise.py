@@ -79,6 +79,7 @@ def force_over_time(fit: Fit, stretch: Stretch, axis: int, words: str) -> Struct
         description=f'a {kind} of {strength:.3g} {unit} rms {words}',
         axis=BODY[axis],
         variable='time_of_push',
+        over='time [s]',
         strength=strength,
         p_value=nan,
         knots=knots,

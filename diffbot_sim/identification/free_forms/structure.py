@@ -172,6 +172,7 @@ def describe(dependence: Dependence, fit: Fit) -> Structure:
         ),
         axis=basis.axis,
         variable=basis.variable,
+        over=VARIABLES[basis.variable].label,
         strength=strength,
         p_value=dependence.p_block,
         knots=knots,
