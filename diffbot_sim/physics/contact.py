@@ -108,10 +108,9 @@ def reaction_at(
     laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, modes: Modes
 ) -> Reaction:
     """Return the friction forces of any pattern of sticking and sliding."""
-    now = instant_at(laws, params, states, at, inputs, modes)
     if modes[RIGHT] == 0 and modes[LEFT] == 0:
-        return _reaction_at_rest(laws, params, states, at, inputs, now)
-    return sliding_reaction(at, now, modes)
+        return _reaction_at_rest(laws, params, states, at, inputs)
+    return sliding_reaction(at, instant_at(laws, params, states, at, inputs, modes), modes)
 
 
 @compiled
@@ -121,15 +120,15 @@ def slack(
     """Return how far the stuck contacts are from breaking away; negative: they must."""
     if modes[RIGHT] != 0 and modes[LEFT] != 0 and modes[YAW] != 0:
         return inf
-    now = instant_at(laws, params, states, at, inputs, modes)
-    allowance = _allowance(now)
     if modes[RIGHT] == 0 and modes[LEFT] == 0:
+        now = _pushed_forward(laws, params, states, at, inputs)
         rest = _rest_range(laws, params, states, at, inputs, now)
         low, high = _wheels(rest)
-        return allowance + min(high - rest.yaw_low, rest.yaw_high - low, high - low)
+        return _allowance(now) + min(high - rest.yaw_low, rest.yaw_high - low, high - low)
+    now = instant_at(laws, params, states, at, inputs, modes)
     reaction = sliding_reaction(at, now, modes)
     right, left = float(modes[RIGHT]), float(modes[LEFT])
-    allowance += ROUNDING * (abs(reaction.right) + abs(reaction.left))
+    allowance = _allowance(now) + ROUNDING * (abs(reaction.right) + abs(reaction.left))
     if modes[RIGHT] == 0:
         pushed = evaluate(laws, params, states, at, inputs, _direction(reaction.right), left)
         return pushed.static_right - abs(reaction.right) + allowance
@@ -198,19 +197,27 @@ def _direction(towards: float) -> float:
 
 
 @compiled
+def _pushed_forward(
+    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs
+) -> Instant:
+    """Evaluate the forces at rest; only friction depends on which way the wheels are pushed."""
+    return evaluate(laws, params, states, at, inputs, 1.0, 1.0)
+
+
+@compiled
 def _rest_range(
-    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, now: Instant
+    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, forward: Instant
 ) -> Range:
-    forward = evaluate(laws, params, states, at, inputs, 1.0, 1.0)
+    """Return what the contacts allow, pushed either way; forward: what bears on them that way."""
     backward = evaluate(laws, params, states, at, inputs, -1.0, -1.0)
-    force = now.force
+    force, torque, dry_torque = forward.force, forward.torque, forward.dry_torque
     return Range(
         -2.0 * backward.static_right - force,
         2.0 * forward.static_right - force,
         force - 2.0 * forward.static_left,
         force + 2.0 * backward.static_left,
-        (now.torque - now.dry_torque) / now.b,
-        (now.torque + now.dry_torque) / now.b,
+        (torque - dry_torque) / forward.b,
+        (torque + dry_torque) / forward.b,
     )
 
 
@@ -222,12 +229,13 @@ def _wheels(rest: Range) -> tuple[float, float]:
 
 @compiled
 def _reaction_at_rest(
-    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs, now: Instant
+    laws: Laws, params: Array, states: Array, at: Motion, inputs: Inputs
 ) -> Reaction:
     """Share a resting robot's torque between wheels and yaw friction in the ratio of their limits.
 
     Three dry contacts hold two motions, so the split is a choice wherever yaw friction exists.
     """
+    now = _pushed_forward(laws, params, states, at, inputs)
     rest = _rest_range(laws, params, states, at, inputs, now)
     wheels_low, wheels_high = _wheels(rest)
     wheels, yaw = wheels_high - wheels_low, rest.yaw_high - rest.yaw_low
@@ -251,7 +259,7 @@ def _break_rest(
     long as friction does not drop when sliding starts. Where it does (coulomb_stiction), a wheel
     that cannot rest slides, and any other contact stays stuck where it can.
     """
-    now = instant_at(laws, params, states, at, inputs, modes)
+    now = _pushed_forward(laws, params, states, at, inputs)
     torn_right, torn_left = _torn(
         _rest_range(laws, params, states, at, inputs, now), _allowance(now)
     )

@@ -110,14 +110,13 @@ class Fit:
 
 def whitened(stretches: Sequence[Stretch], model: Model, gains: Array, sigma: Array) -> Array:
     """Return used innovations of several stretches, one after the other, over sigma: (n, 2)."""
-    rows = []
-    for stretch in stretches:
-        innovation = predict(model, stretch, gains).innovation
-        used = innovation[stretch.used]
-        # Parameters far from any robot make numbers that cannot be squared: these only have to
-        # be bad.
-        rows.append(np.clip(used, -WORST * sigma, WORST * sigma) / sigma)
-    return np.nan_to_num(np.concatenate(rows), nan=WORST)
+    innovations = (
+        predict(model, stretch, gains).innovation[stretch.used] for stretch in stretches
+    )
+    errors, most = np.concatenate(list(innovations)), WORST * sigma
+    # Parameters far from any robot make numbers that cannot be squared, or none: these only have
+    # to be bad.
+    return np.asarray(np.fmax(np.fmin(errors, most), -most) / sigma)
 
 
 def predictions(fit: Fit, stretches: Sequence[Stretch]) -> list[Prediction]:
