@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
-from math import nan
+from math import inf, nan
 
 import numpy as np
 import pytest
@@ -24,7 +24,12 @@ from diffbot_sim.identification.selection.trials import (
     UNCONFIRMED,
     Trial,
 )
-from diffbot_sim.identification.statistics.guards import lasting
+from diffbot_sim.identification.statistics.guards import (
+    BEYOND_ALL,
+    FAR_BEYOND,
+    lasting,
+    least_worth,
+)
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
@@ -113,6 +118,23 @@ def test_what_no_other_data_show_is_passing_however_sure_it_seems() -> None:
 def test_where_blocks_cannot_tell_other_data_must_be_as_sure_as_both_would_be() -> None:
     assert lasting(nan, 1e-3)
     assert not lasting(nan, 0.01)
+
+
+@pytest.mark.parametrize(
+    ('p_block', 'p_folds', 'p_held_out', 'asked'),
+    [
+        pytest.param(1e-4, 0.01, 0.01, 0.0, id='foreseen_everywhere'),
+        pytest.param(1e-4, 0.01, 1.0, FAR_BEYOND, id='ended_since'),
+        pytest.param(2e-5, 0.09, 0.28, BEYOND_ALL, id='foreseen_by_none_denied_by_none'),
+        pytest.param(2e-5, 0.6, 0.5, inf, id='denied'),
+        pytest.param(0.02, 0.09, 0.28, inf, id='passing'),
+        pytest.param(nan, 0.2, 0.2, inf, id='in_too_few_blocks'),
+    ],
+)
+def test_the_less_other_data_foresee_a_force_the_more_it_must_be_worth(
+    p_block: float, p_folds: float, p_held_out: float, asked: float
+) -> None:
+    assert least_worth(p_block, p_folds, p_held_out) == asked
 
 
 def test_limit_with_a_soft_corner_is_named_beside_what_its_corner_leaves() -> None:

@@ -31,9 +31,9 @@ from diffbot_sim.identification.statistics.guards import (
     BLOCK_LEVEL,
     EITHER_LEVEL,
     VERY_STRONG,
-    elsewhere,
     is_chance,
     lasting,
+    least_worth,
     may_be_chance,
 )
 from diffbot_sim.identification.statistics.robust import huber
@@ -42,9 +42,6 @@ from diffbot_sim.identification.statistics.robust import huber
 FOLLOWED = 6
 # A dependence explains almost as much as another with this share of its worth.
 ALMOST = 0.9
-# What lowers the BIC by more where it was fitted was there, though held-out data may lack it: on
-# rough floors nothing did by more than 14 on any of 102 clean robots.
-FAR_BEYOND = 25.0
 FORCES = {
     'v': ('force along the robot', 'N'),
     'omega': ('torque', 'N·m'),
@@ -110,17 +107,13 @@ def _beyond_doubt(
 
 def _least_worth(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) -> float:
     """Return by what it must lower the BIC to be believed, infinite if other data deny it."""
-    p_folds = dependence.p_folds
-    where_fitted = not isnan(p_folds) and lasting(dependence.p_block, p_folds)
-    # A rough floor is the same again where the robot comes back, so that held-out data confirm
-    # nothing: other parts of the floor must, and be as sure as blocks.
+    p_block, p_folds = dependence.p_block, dependence.p_folds
     if _is_of_place(dependence):
-        return 0.0 if where_fitted and p_folds <= BLOCK_LEVEL else inf
-    held = _held_out_chance(fit, dependence, held_out)
-    if lasting(dependence.p_block, elsewhere(held, p_folds)):
-        return 0.0
-    # What was sure all along the fitted data may have ended since.
-    return FAR_BEYOND if where_fitted else inf
+        # A rough floor is the same again where the robot comes back, so that held-out data
+        # confirm nothing: other parts of the floor must, and be as sure as blocks.
+        sure = not isnan(p_folds) and lasting(p_block, p_folds) and p_folds <= BLOCK_LEVEL
+        return 0.0 if sure else inf
+    return least_worth(p_block, p_folds, _held_out_chance(fit, dependence, held_out))
 
 
 def _is_of_place(dependence: Dependence) -> bool:

@@ -1,7 +1,7 @@
 """How sure an answer must be: the same for a name and for a force that has none."""
 
 from collections.abc import Iterable
-from math import isnan, log
+from math import inf, isnan, log
 
 import numpy as np
 from scipy import stats
@@ -26,6 +26,11 @@ SUREST = 2.0**-RANKED
 # What lowers the BIC by less tells structures apart by no more than chance might: above it Kass
 # and Raftery (1995) call evidence very strong.
 VERY_STRONG = 10.0
+
+# A force that lowers the BIC by more where it was fitted was there, though held-out data may lack
+# it: on rough floors none did by more than 14 on any of 102 clean robots. By so much more that it
+# need not be foreseen even by parts of the same data: a brake that lets go late now and then.
+FAR_BEYOND, BEYOND_ALL = 25.0, 100.0
 
 # A chance that is as good as none.
 IMPOSSIBLE = 1e-300
@@ -82,3 +87,17 @@ def lasting(p_block: float, p_elsewhere: float) -> bool:
         return False
     both = np.maximum([p_block, p_elsewhere], np.finfo(float).tiny)
     return bool(stats.combine_pvalues(both).pvalue <= BOTH_LEVEL)
+
+
+def least_worth(p_block: float, p_folds: float, p_held_out: float) -> float:
+    """Return by what a force must lower the BIC to be believed, infinite if other data deny it.
+
+    p_folds: the chance of what parts of the runs tell of others; nan where they prove nothing.
+    """
+    p_elsewhere = elsewhere(p_held_out, p_folds)
+    if lasting(p_block, p_elsewhere):
+        return 0.0
+    # What was sure all along the fitted data may have ended since.
+    if not isnan(p_folds) and lasting(p_block, p_folds):
+        return FAR_BEYOND
+    return BEYOND_ALL if p_block <= BLOCK_LEVEL and p_elsewhere <= AGAINST else inf
