@@ -18,7 +18,9 @@ def as_it_is(at: Motion, balance: Balance, widening: float) -> Balance:
 class EffectiveTrack(Effect):
     """Wheel separation times 1 + widening, for speeds and forces of the wheels alike.
 
-    A yaw rate that is measured too large by a share s looks the same, with -s / (1 + s).
+    The yaw rate that odometry tells is taken for the robot's own, not for that of encoders and the
+    declared separation. One that is measured too large by a share s looks the same, with
+    -s / (1 + s).
     """
 
     name = 'effective_track'

@@ -37,9 +37,10 @@ def amplitude(meaning: str) -> float:
 
 @dataclass(frozen=True)
 class WheelRipple(Effect):
-    """Force c·cos(nθ) + s·sin(nθ) on each wheel, with its own angle θ.
+    """Force c·cos(nθ) + s·sin(nθ) that drives each wheel, with its own angle θ.
 
-    θ is 0 at the start of a run, in identification of the first one. Both wheels have one n.
+    θ is 0 at the start of a run; of several that are identified together, of the first one. Both
+    wheels have one n.
 
     It derives from a potential, so a full period does no work. While c = s = 0, n is without
     meaning.
