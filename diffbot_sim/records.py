@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 # The wheels in the order of columns.
 SIDES = ('right', 'left')
+# The frames that forces on the wheels are told in: where each touches the floor.
+CONTACT_FRAMES = {side: f'{side}_wheel_contact' for side in SIDES}
 # In a second: stamps of bags and messages are whole numbers of them.
 NANOSECONDS = 1_000_000_000
 

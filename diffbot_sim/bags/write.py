@@ -9,7 +9,7 @@ import numpy as np
 
 from diffbot_sim.bags.folder import Message, write_bag
 from diffbot_sim.bags.messages import odometry, twist, wrench
-from diffbot_sim.records import NANOSECONDS, SIDES, Array, Run, Trajectory
+from diffbot_sim.records import CONTACT_FRAMES, NANOSECONDS, SIDES, Array, Run, Trajectory
 
 
 def write_run(path: str | Path, run: Run, start_ns: int = 0) -> None:
@@ -59,7 +59,7 @@ def _pair(topic: str, stamp: int, first: float, second: float) -> Any:
 
 def _wheels(what: str, times: Array, values: Array, start_ns: int) -> Iterator[Message]:
     for side, column in zip(SIDES, values.T.tolist(), strict=True):
-        frame = f'{side}_wheel_contact'
+        frame = CONTACT_FRAMES[side]
         for stamp, value in zip(_stamps(times, start_ns), column, strict=True):
             yield Message(stamp, f'/{side}_wheel/{what}', wrench(stamp, frame, value))
 

@@ -14,7 +14,7 @@ from diffbot_sim.nodes.conversions import Pair
 from diffbot_sim.nodes.odometer import Odometer
 from diffbot_sim.nodes.settings import SimulatorSettings
 from diffbot_sim.physics import Plant
-from diffbot_sim.records import SIDES
+from diffbot_sim.records import CONTACT_FRAMES, SIDES
 
 DEPTH = 10
 # Messages kept for a listener that is busy, so that a recording on a busy machine has no gap.
@@ -66,7 +66,7 @@ class Outputs:
         """Tell the forces [N] held from a stamp [ns] on, what they meet, and the wheels."""
         for values, outlets in ((force, self._force), (plant.friction, self._friction)):
             for side, value, (publisher, message) in zip(SIDES, values, outlets, strict=True):
-                frame = f'{self._prefix}{side}_wheel_contact'
+                frame = self._prefix + CONTACT_FRAMES[side]
                 publisher.publish(conversions.wrench(stamp, frame, value, into=message))
         self._publish_joints(stamp, plant, force)
 

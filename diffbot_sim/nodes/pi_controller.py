@@ -17,7 +17,7 @@ from diffbot_sim.nodes.parameters import Live, build, table
 from diffbot_sim.nodes.running import parse, parser, run
 from diffbot_sim.nodes.settings import ControllerSettings
 from diffbot_sim.nodes.timing import QUIET
-from diffbot_sim.records import NANOSECONDS, SIDES
+from diffbot_sim.records import CONTACT_FRAMES, NANOSECONDS, SIDES
 
 LONGEST = 0.1  # [s]; a gap in the odometry must not wind up the integral
 
@@ -108,7 +108,7 @@ class PiController(Node):
         stamp = conversions.nanoseconds(about.header.stamp)
         prefix = conversions.frame_prefix_of(about)
         for side, *values in zip(SIDES, force, reference, measured, strict=True):
-            frame = f'{prefix}{side}_wheel_contact'
+            frame = prefix + CONTACT_FRAMES[side]
             self._forces[side].publish(conversions.wrench(stamp, frame, values[0]))
             self._wanted[side].publish(conversions.wheel_rate(stamp, frame, values[1]))
             self._measured[side].publish(conversions.wheel_rate(stamp, frame, values[2]))

@@ -10,6 +10,9 @@ from diffbot_sim.physics.stages import Motion, numba_type
 
 ARRAY = types.Array(types.float64, 1, 'C')
 MATRIX = types.Array(types.float64, 2, 'C')
+# The same with other numbers in between: rows and columns of larger arrays.
+STRIDED_ARRAY = types.Array(types.float64, 1, 'A')
+STRIDED_MATRIX = types.Array(types.float64, 2, 'A')
 INTEGERS = types.Array(types.int64, 1, 'C')
 
 # (params, states, motion, inputs, right, left): all that bears on the robot, where right and left

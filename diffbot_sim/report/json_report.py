@@ -20,6 +20,15 @@ from diffbot_sim.report.numerals import unit_text
 from diffbot_sim.report.origin import Origin
 from diffbot_sim.report.sentences import why
 
+# What a run that is the only one has in place of how it agrees with others.
+_NOTHING = asdict(ErrorNorm(nan, nan))
+ALONE = {
+    **dict.fromkeys(('agrees', 'set_aside', 'wheel_angles', 'why')),
+    **dict.fromkeys(('own_effects', 'differences'), ()),
+    **_NOTHING,
+    'noise_floor': _NOTHING,
+}
+
 
 def json_text(result: Identification, origin: Origin) -> str:
     """Write the answer as JSON: full precision, SI units, null for what is not a number."""
@@ -89,18 +98,17 @@ def _runs(result: Identification) -> list[dict[str, Any]]:
 
 def _agreement(run: RunCheck | None) -> dict[str, Any]:
     """Tell how one of several runs agrees; null where there is only one."""
-    nothing = ErrorNorm(nan, nan)
+    if run is None:
+        return ALONE
     return {
-        'agrees': None if run is None else run.agrees,
-        'set_aside': None if run is None else run.set_aside,
-        'own_effects': [] if run is None else run.own_effects,
-        'wheel_angles': None if run is None else run.wheel_angles,
-        'why': None if run is None else why(run),
-        **asdict(nothing if run is None else run.error),
-        'noise_floor': asdict(nothing if run is None else run.noise_floor),
-        'differences': []
-        if run is None
-        else [
+        'agrees': run.agrees,
+        'set_aside': run.set_aside,
+        'own_effects': run.own_effects,
+        'wheel_angles': run.wheel_angles,
+        'why': why(run),
+        **asdict(run.error),
+        'noise_floor': asdict(run.noise_floor),
+        'differences': [
             {'parameter': it.name, 'here': _estimate(it.here), 'others': _estimate(it.others)}
             for it in run.differences
         ],

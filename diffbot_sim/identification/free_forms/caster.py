@@ -16,6 +16,7 @@ from numba import types
 
 from diffbot_sim.identification.fitting.views import View, on_wheels
 from diffbot_sim.physics.compiled import compiled, entry
+from diffbot_sim.physics.dynamics import ARRAY, STRIDED_ARRAY
 from diffbot_sim.records import Array
 
 # Where the pivot may be, ahead of the axle, and how far the wheel may trail it: shares of half
@@ -26,7 +27,6 @@ SLOW = 0.01
 # The longest step in which a caster swivels [rad].
 LONGEST = 0.1
 POINTS = 41
-_ROW = types.Array(types.float64, 1, 'A')
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ def _rate(angle: float, v: float, omega: float, ahead: float, trail: float) -> f
 
 
 @entry(
-    types.void(_ROW, _ROW, _ROW, types.float64, types.float64, types.Array(types.float64, 1, 'C'))
+    types.void(STRIDED_ARRAY, STRIDED_ARRAY, STRIDED_ARRAY, types.float64, types.float64, ARRAY)
 )
 def _swivel(time: Array, v: Array, omega: Array, ahead: float, trail: float, angle: Array) -> None:
     """Follow the pivot from sample to sample, in steps of a midpoint rule."""

@@ -14,6 +14,7 @@ from numba import types
 
 from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.physics.compiled import entry
+from diffbot_sim.physics.dynamics import MATRIX, STRIDED_ARRAY
 from diffbot_sim.records import Array
 
 # Rates [Hz] so close that what swings at any rate between is seen, and its damping ratio.
@@ -21,7 +22,6 @@ RATES = tuple(np.geomspace(0.3, 5.0, 15).tolist())
 DAMPING = 0.07
 # What is drawn: so many points of so many periods after a jump of the speed.
 POINTS, PERIODS = 61, 3.0
-_ROW = types.Array(types.float64, 1, 'A')
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def swung(time: Array, speed: Array, rate: float) -> Array:
     return parts
 
 
-@entry(types.void(_ROW, _ROW, types.float64, types.Array(types.float64, 2, 'C')))
+@entry(types.void(STRIDED_ARRAY, STRIDED_ARRAY, types.float64, MATRIX))
 def _swing(time: Array, speed: Array, omega: float, parts: Array) -> None:
     """Let an oscillator ring with each change of a speed, half of it before and half after."""
     turn = omega * sqrt(1.0 - DAMPING**2)

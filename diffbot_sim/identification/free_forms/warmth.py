@@ -10,11 +10,11 @@ from numba import types
 from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.identification.free_forms.forms import Given
 from diffbot_sim.physics.compiled import entry
+from diffbot_sim.physics.dynamics import STRIDED_ARRAY, STRIDED_MATRIX
 from diffbot_sim.records import Array
 
 # For how long warmth stays [s], each tried alone.
 TIMES = ((3.0,), (10.0,), (30.0,))
-_MATRIX = types.Array(types.float64, 2, 'A')
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ def lately(values: Array, time: Array, fading: float) -> Array:
     return mean
 
 
-@entry(types.void(types.Array(types.float64, 1, 'A'), _MATRIX, types.float64, _MATRIX))
+@entry(types.void(STRIDED_ARRAY, STRIDED_MATRIX, types.float64, STRIDED_MATRIX))
 def _fade(time: Array, values: Array, fading: float, mean: Array) -> None:
     """Let the mean follow the values from sample to sample, each held until the next."""
     for k in range(len(time) - 1):

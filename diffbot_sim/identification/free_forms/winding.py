@@ -14,13 +14,13 @@ from numba import types
 from diffbot_sim.identification.fitting.views import View
 from diffbot_sim.identification.free_forms.forms import Given
 from diffbot_sim.physics.compiled import entry
+from diffbot_sim.physics.dynamics import MATRIX, STRIDED_ARRAY, STRIDED_MATRIX
 from diffbot_sim.records import Array
 
 # Ways in which a wheel winds up [m], each tried alone.
 WAYS = ((0.03,), (0.1,), (0.3,))
 # What is drawn: so many points of so many ways after turning back.
 POINTS, DRAWN = 41, 4.0
-_MATRIX = types.Array(types.float64, 2, 'A')
 
 
 @dataclass(frozen=True)
@@ -49,10 +49,10 @@ def wound(time: Array, speed: Array, way: float) -> Array:
 
 @entry(
     types.void(
-        types.Array(types.float64, 1, 'A'),
-        _MATRIX,
+        STRIDED_ARRAY,
+        STRIDED_MATRIX,
         types.float64,
-        types.Array(types.float64, 2, 'C'),
+        MATRIX,
     )
 )
 def _wind(time: Array, speed: Array, way: float, parts: Array) -> None:
