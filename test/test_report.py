@@ -3,6 +3,7 @@
 import io
 import json
 import re
+from base64 import b64decode
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -231,6 +232,28 @@ def test_answer_without_runs_or_candidates_can_be_told() -> None:
     bare = replace(by_hand.nothing_missing(), comparisons=(), candidates=(), nominal={})
     assert 'Nothing missing' in by_hand.page(bare)
     assert 'Nothing missing' in summary(bare)
+
+
+@pytest.mark.parametrize(
+    ('over', 'knots', 'drawn', 'scale'),
+    [
+        ('heading [°]', np.radians([-180.0, 180.0]), [-180.0, 180.0], None),
+        ('rest [ln s]', np.log([0.2, 4.0]), [0.2, 4.0], 'log'),
+        ('speed v [m/s]', np.array([-1.0, 1.0]), [-1.0, 1.0], None),
+    ],
+)
+def test_curves_are_drawn_in_units_that_people_read(
+    over: str, knots: np.ndarray, drawn: list[float], scale: str | None
+) -> None:
+    left = by_hand.unexplained().unexplained
+    two = np.ones(2)
+    figure = figures.structure_figure(
+        replace(left, over=over, knots=knots, force=two, force_error=two)
+    )
+    axis, x = figure.layout['xaxis'], figure.data[-1]['x']
+    assert np.frombuffer(b64decode(x['bdata']), x['dtype']) == pytest.approx(drawn)
+    assert axis.get('type') == scale
+    assert 'ln' not in axis['title']['text']
 
 
 @every_verdict

@@ -33,6 +33,8 @@ SMALL = 250
 # Residuals are drawn against so many variables.
 SHOWN = 3
 FORCE, TORQUE = 'force [N]', 'torque [N·m]'
+# Marks of a logarithmic axis [s].
+SECONDS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
 
 
 def run_figures(result: Identification, run: Comparison) -> list[Figure]:
@@ -127,19 +129,26 @@ def _disturbance(runs: tuple[Comparison, ...], axis_: int, name: str) -> Figure:
 def structure_figure(structure: Structure) -> Figure:
     """Draw the empirical curve of what no effect accounts for."""
     spread = 1.96 * structure.force_error
-    # Radians everywhere, degrees on paper.
-    in_degrees = structure.over.endswith('[°]')
-    x = np.degrees(structure.knots) if in_degrees else structure.knots
-    y = structure.force
+    (x, xaxis), y = _on_paper(structure), structure.force
     colour = COLOURS['with_effects']
     data = [band(x, y - spread, y + spread, colour), line(x, y, 'estimate', colour)]
     force = TORQUE if structure.axis == 'omega' else FORCE
-    look = layout(320, xaxis=axis(structure.over), yaxis=axis(force), showlegend=False)
+    look = layout(320, xaxis=xaxis, yaxis=axis(force), showlegend=False)
     about = (
         'Estimate with its 95 % band, beside the friction and inertia that were fitted with it.'
     )
     title = f'What no effect accounts for {structure.part}'
     return Figure(title.rstrip(), about, data, look)
+
+
+def _on_paper(structure: Structure) -> tuple[Array, Json]:
+    """Return the knots of a curve, and their axis, as people read them: in degrees, in seconds."""
+    label, knots = structure.over, structure.knots
+    if label.endswith('[°]'):
+        return np.degrees(knots), axis(label)
+    if label.endswith('[ln s]'):
+        return np.exp(knots), axis(label.replace('ln s', 's'), type='log', tickvals=SECONDS)
+    return knots, axis(label)
 
 
 def error_figures(errors: Errors) -> list[Figure]:
