@@ -61,8 +61,8 @@ def test_every_form_draws_as_many_functions_as_it_shows(view: View, name: str) -
 
 
 @pytest.mark.parametrize('name', list(VARIABLES))
-def test_every_variable_has_a_label_with_its_unit(name: str) -> None:
-    assert VARIABLES[name].label.endswith(']')
+def test_every_variable_tells_what_its_curve_is_drawn_over_with_its_unit(name: str) -> None:
+    assert VARIABLES[name].over.endswith(']')
 
 
 @pytest.mark.parametrize('name', ['rolling', 'turning'])

@@ -165,7 +165,7 @@ def describe(dependence: Dependence, fit: Fit) -> Structure:
         ),
         axis=basis.axis,
         variable=basis.variable,
-        over=VARIABLES[basis.variable].label,
+        over=VARIABLES[basis.variable].over,
         strength=strength,
         p_value=dependence.p_block,
         knots=knots,

@@ -20,13 +20,13 @@ class Variable:
     """A variable in words, its form, and along which axes a force may depend on it.
 
     words: grid stands for the numbers that the functions are laid on, rate and period for those of
-    the slowest wave; label: of what its curve is drawn over, with the unit; order: in which
+    the slowest wave; over: what its curve is drawn over, with the unit; order: in which
     samples are cut into parts that must agree; parts: what has functions of its own, which follow
     each other in this order.
     """
 
     words: str
-    label: str
+    over: str
     form: Form
     axes: tuple[str, ...]
     order: Callable[[Sequence[Stretch]], Order] = in_time
