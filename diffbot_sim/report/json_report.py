@@ -20,15 +20,6 @@ from diffbot_sim.report.numerals import unit_text
 from diffbot_sim.report.origin import Origin
 from diffbot_sim.report.sentences import why
 
-# What a run that is the only one has in place of how it agrees with others.
-_NOTHING = asdict(ErrorNorm(nan, nan))
-ALONE = {
-    **dict.fromkeys(('agrees', 'set_aside', 'wheel_angles', 'why')),
-    **dict.fromkeys(('own_effects', 'differences'), ()),
-    **_NOTHING,
-    'noise_floor': _NOTHING,
-}
-
 
 def json_text(result: Identification, origin: Origin) -> str:
     """Write the answer as JSON: full precision, SI units, null for what is not a number."""
@@ -99,7 +90,7 @@ def _runs(result: Identification) -> list[dict[str, Any]]:
 def _agreement(run: RunCheck | None) -> dict[str, Any]:
     """Tell how one of several runs agrees; null where there is only one."""
     if run is None:
-        return ALONE
+        return _unknown_agreement()
     return {
         'agrees': run.agrees,
         'set_aside': run.set_aside,
@@ -112,6 +103,18 @@ def _agreement(run: RunCheck | None) -> dict[str, Any]:
             {'parameter': it.name, 'here': _estimate(it.here), 'others': _estimate(it.others)}
             for it in run.differences
         ],
+    }
+
+
+def _unknown_agreement() -> dict[str, Any]:
+    """Return the same keys for a run that has no others to agree with."""
+    nothing = asdict(ErrorNorm(nan, nan))
+    return {
+        **dict.fromkeys(('agrees', 'set_aside', 'wheel_angles', 'why')),
+        **nothing,
+        'noise_floor': nothing,
+        'own_effects': [],
+        'differences': [],
     }
 
 

@@ -110,10 +110,8 @@ class Fit:
 
 def whitened(stretches: Sequence[Stretch], model: Model, gains: Array, sigma: Array) -> Array:
     """Return used innovations of several stretches, one after the other, over sigma: (n, 2)."""
-    innovations = (
-        predict(model, stretch, gains).innovation[stretch.used] for stretch in stretches
-    )
-    errors, most = np.concatenate(list(innovations)), WORST * sigma
+    rows = [predict(model, stretch, gains).innovation[stretch.used] for stretch in stretches]
+    errors, most = np.concatenate(rows), WORST * sigma
     # Parameters far from any robot make numbers that cannot be squared, or none: these only have
     # to be bad.
     return np.asarray(np.fmax(np.fmin(errors, most), -most) / sigma)

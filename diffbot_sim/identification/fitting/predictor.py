@@ -152,9 +152,9 @@ def _predict(  # type: ignore[no-untyped-def]
             else:
                 correct(z, modes, params[HALF_SEPARATION], by[0], by[1])
             out[k, 0], out[k, 1] = weight[k, 0] * missed[0], weight[k, 1] * missed[1]
-            at_end = (1.0 + means[0]) * out[k, 0], (1.0 + means[1]) * out[k, 1]
-            pushing = _disturbed(of_v, params[MASS], interval, pushing, at_end[0])
-            turning = _disturbed(of_omega, params[INERTIA], interval, turning, at_end[1])
+            error = (1.0 + means[0]) * out[k, 0], (1.0 + means[1]) * out[k, 1]
+            pushing = _disturbed(of_v, params[MASS], interval, pushing, error[0])
+            turning = _disturbed(of_omega, params[INERTIA], interval, turning, error[1])
             roll(params, z, way[k, 0], way[k, 1], 1.0 - exp(-interval / ROLLED))
         z[HEADING] = heading[k]
         out[k, 2], out[k, 3] = twist_of(params, z)

@@ -1,7 +1,7 @@
 """Structure that no effect accounts for: a force that depends on something, whatever its law."""
 
 from collections.abc import Sequence
-from math import inf, isinf, isnan
+from math import inf, isinf
 
 import numpy as np
 
@@ -111,7 +111,7 @@ def _least_worth(fit: Fit, dependence: Dependence, held_out: Sequence[Stretch]) 
     if _is_of_place(dependence):
         # A rough floor is the same again where the robot comes back, so that held-out data
         # confirm nothing: other parts of the floor must, and be as sure as blocks.
-        sure = not isnan(p_folds) and lasting(p_block, p_folds) and p_folds <= BLOCK_LEVEL
+        sure = p_folds <= BLOCK_LEVEL and lasting(p_block, p_folds)
         return 0.0 if sure else inf
     return least_worth(p_block, p_folds, _held_out_chance(fit, dependence, held_out))
 
