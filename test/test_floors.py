@@ -35,6 +35,8 @@ STOREYS: list[set[str]] = [
     {'free_forms', 'conclusions', 'suspicion', 'found', 'leading'},
     {'doubt', 'following', 'older', 'odd_ones', 'later'},
     {'allowing', 'simulating', 'standing_wheels', 'contradiction'},
+    {'finding'},
+    {'retimed'},
     {'search'},
     {'questioning'},
     {'identify'},

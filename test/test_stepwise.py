@@ -10,7 +10,7 @@ from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.selection.candidates import approach, complete
 from diffbot_sim.identification.selection.evidence import compare, likelihood_ratio, rise_without
 from diffbot_sim.identification.selection.screening import Screen
-from diffbot_sim.identification.selection.stepwise import select
+from diffbot_sim.identification.selection.stepwise import select, tried_on
 from diffbot_sim.identification.selection.trials import (
     ESSENTIAL_SHARE,
     NEEDLESS,
@@ -31,9 +31,9 @@ def test_name_is_told_only_where_the_data_can_tell_it_from_none(
 ) -> None:
     dragging, noisy = Model(effects=(QuadraticDrag(coefficient),)), Surroundings(0.015, 0.03)
     fit, held_out = fitted(rehearse(dragging, random_forces(3, 60.0, -9.0, 11.0), noisy, 3))
-    (trial,) = try_all(Screen(fit), [QuadraticDrag], held_out, lambda text: None)
-    assert trial.accepted
-    found = select(fit, [QuadraticDrag], held_out, lambda text: None)
+    first = tried_on(fit, [QuadraticDrag], held_out, lambda text: None)
+    assert first.trials[0].accepted
+    found = select(first, [QuadraticDrag], held_out, lambda text: None)
     assert list(found.support) == names
     assert [told.outcome for told in found.trials] == [SUPPORTED if names else NEEDLESS]
 
@@ -67,7 +67,8 @@ def test_limit_that_acts_for_moments_enters_where_other_data_confirm_it() -> Non
 def test_what_is_found_counts_the_shapes_tried() -> None:
     drifting = Model(effects=(FrictionDrift(0.3, 0.0, 20.0),))
     fit, held_out = fitted(rehearse(drifting, random_forces(3, 60.0, -9.0, 11.0), SMOOTH, 3))
-    found = select(fit, [FrictionDrift], held_out, lambda text: None)
+    first = tried_on(fit, [FrictionDrift], held_out, lambda text: None)
+    found = select(first, [FrictionDrift], held_out, lambda text: None)
     (trial,), (rest,), (told,) = found.trials, found.without.values(), found.support.values()
     assert trial.looks > 1
     alone = compare(rest, found.final, held_out)

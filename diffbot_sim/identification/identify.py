@@ -10,6 +10,7 @@ from diffbot_sim.identification.conclusions.comparison import compare_models, er
 from diffbot_sim.identification.conclusions.empirical import term_in, with_term
 from diffbot_sim.identification.conclusions.horizons import horizons
 from diffbot_sim.identification.conclusions.uncertainty import estimates
+from diffbot_sim.identification.finding import Question
 from diffbot_sim.identification.following import follows_nothing
 from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.questioning import searched
@@ -28,7 +29,6 @@ from diffbot_sim.identification.result import (
     Identification,
     Structure,
 )
-from diffbot_sim.identification.search import Question
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import Progress, Trial
 from diffbot_sim.identification.simulating import for_simulation

@@ -10,6 +10,7 @@ from diffbot_sim.identification.contradiction import (
     resized,
     with_general_law,
 )
+from diffbot_sim.identification.finding import Question, recalibrated
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.wiring import fault_of
 from diffbot_sim.identification.following import moved_as_if
@@ -17,7 +18,7 @@ from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.recordings.checks import check
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.result import LAW
-from diffbot_sim.identification.search import Question, recalibrated, search
+from diffbot_sim.identification.search import search
 from diffbot_sim.physics.model import Model
 
 

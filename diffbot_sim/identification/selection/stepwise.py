@@ -69,24 +69,42 @@ class Selection:
         )
 
 
+class Tried(NamedTuple):
+    """A structure, and the trials of every effect on top of it."""
+
+    screen: Screen
+    trials: Sequence[Trial]
+
+    @property
+    def best(self) -> Fit | None:
+        """The fit of the effect that enters, None where none does."""
+        accepted = [(t.evidence.delta_bic, t.fit) for t in self.trials if t.accepted and t.fit]
+        _, best = max(accepted, key=itemgetter(0), default=(0.0, None))
+        return best
+
+
+def tried_on(
+    fit: Fit, kinds: Sequence[type[Effect]], held_out: Sequence[Stretch], progress: Progress
+) -> Tried:
+    """Try effects on top of a structure."""
+    screen = Screen(fit)
+    return Tried(screen, try_all(screen, kinds, held_out, progress))
+
+
 def select(
-    base: Fit,
+    first: Tried,
     kinds: Sequence[type[Effect]],
     held_out: Sequence[Stretch],
     progress: Progress,
 ) -> Selection:
-    """Search the structures made of these effects."""
-    last, path = dict[str, Trial](), [Screen(base)]
-    while len(path) <= MOST_EFFECTS:
-        trials = try_all(path[-1], kinds, held_out, progress)
-        last.update({trial.kind.name: trial for trial in trials})
-        entering = [(t.evidence.delta_bic, t.fit) for t in trials if t.accepted and t.fit]
-        if not entering:
-            break
-        _, best = max(entering, key=itemgetter(0))
+    """Search the structures made of these effects, which were tried on the nominal one first."""
+    path = [first]
+    while (best := path[-1].best) is not None:
         progress(f'{best.space.kinds[-1].name} enters')
-        path.append(Screen(shaken(begun_anew(best))))
-    fits = [screen.fit for screen in path]
+        more = kinds if len(path) < MOST_EFFECTS else ()
+        path.append(tried_on(shaken(begun_anew(best)), more, held_out, progress))
+    fits = [tried.screen.fit for tried in path]
+    last = {trial.kind.name: trial for tried in path for trial in tried.trials}
     looks = _looks(last.values())
     final, without, support, left = _prune(fits, len(kinds), looks, held_out, progress)
     told = [_with_outcome(trial, without, left) for trial in last.values()]
@@ -95,7 +113,7 @@ def select(
         name: _alternatives(final, name, _screened(rest, path), kinds, progress)
         for name, rest in without.items()
     }
-    return Selection(base, final, tuple(reversed(trials)), without, support, alternatives)
+    return Selection(fits[0], final, tuple(reversed(trials)), without, support, alternatives)
 
 
 def _looks(trials: Iterable[Trial]) -> dict[str, int]:
@@ -152,9 +170,9 @@ def _prune(
         fit, left[worst] = smaller[worst], outcomes[worst]
 
 
-def _screened(fit: Fit, path: Sequence[Screen]) -> Screen:
+def _screened(fit: Fit, path: Sequence[Tried]) -> Screen:
     """Return the screen of a fit; those of the path know its scores already."""
-    return next((screen for screen in path if screen.fit is fit), None) or Screen(fit)
+    return next((tried.screen for tried in path if tried.screen.fit is fit), None) or Screen(fit)
 
 
 def _alternatives(

@@ -1,0 +1,141 @@
+"""The search again, where twists or forces prove to be of other moments than their stamps."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from diffbot_sim.identification.finding import (
+    Question,
+    begun_with,
+    found_from,
+    found_in,
+    settled,
+    tried_first,
+)
+from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.filtering import Filter, filter_behind, unfiltered
+from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
+from diffbot_sim.identification.found import Begun, Found
+from diffbot_sim.identification.leading import lead_of
+from diffbot_sim.identification.older import (
+    Ages,
+    Older,
+    is_beyond_doubt,
+    is_taken,
+    lead_of_means,
+)
+from diffbot_sim.identification.recordings.acting import acted_before
+from diffbot_sim.identification.recordings.lateness import timely
+from diffbot_sim.identification.recordings.recordings import Recordings
+from diffbot_sim.identification.selection.stepwise import Tried
+
+
+def timed(recordings: Recordings, question: Question) -> Found:
+    """Search, and search again where twists may be older than their stamps, or filtered.
+
+    Where they are older beyond doubt already for the declared model, that is searched first: most
+    often nothing else needs to be.
+    """
+    begun = begun_with(recordings.each(timely), question)
+    known = dict[Older, Found]()
+
+    def taken(older: Older) -> Found:
+        if older not in known:
+            question.progress(f'taking {older.what} for means since the sample before')
+            known[older] = found_in(begun.recordings.each(older.taken), question)
+        return known[older]
+
+    for older in Ages(begun.base, begun.recordings).beyond_doubt(question.kinds):
+        final = taken(older).selection.final
+        if is_beyond_doubt(older, final, begun.recordings, question.kinds):
+            return taken(older)
+    tried = tried_first(begun, question)
+    filtered = _filtered_beyond_doubt(begun, tried, question)
+    return filtered or _held_against_older(found_from(begun, tried, question), taken, question)
+
+
+def _held_against_older(
+    found: Found, taken: Callable[[Older], Found], question: Question
+) -> Found:
+    """Hold what was found against searches in twists that are older, or went through a filter."""
+    # Doubt may have withdrawn a name for what late twists left beside it.
+    first = found.undoubted.final
+    ages = Ages(first, found.recordings)
+    unexplained = 0.0 if found.unexplained is None else found.unexplained.worth
+    for older in ages.likely if found.says_something else ():
+        ends = (taken(older).undoubted.final, ages.timely(older))
+        if any(is_taken(older, first, end, unexplained) for end in ends):
+            return taken(older)
+        lead = max(lead_of_means(older, first, end, unexplained) for end in ends)
+        if lead > 0.0:
+            return _taken_as_led(taken(older).recordings, lead, question)
+    return replace(_unfiltered(found, question), undecided=ages.is_undecided)
+
+
+def _filtered_beyond_doubt(begun: Begun, tried: Tried, question: Question) -> Found | None:
+    """Search where a filter of the twists is undone, if the first effect to enter stands for one.
+
+    Means are no filters. Nothing else needs to be searched if nothing is unexplained then, and the
+    filter stands up to what is found, too.
+    """
+    first = tried.best
+    behind = None if first is None else filter_behind(first)
+    if first is None or behind is None or Ages(first, begun.recordings).likely:
+        return None
+    found = _undoing(behind, begun.recordings, question)
+    if found.unexplained or not _is_of_filter(first, found.undoubted.final):
+        return None
+    return found
+
+
+def _is_of_filter(first: Fit, final: Fit) -> bool:
+    """Say whether a late effect, the last of a first fit, stands for a filter beside others, too.
+
+    final: what was found on twists that went through none.
+    """
+    late, others = first.space.kinds[-1], final.space.kinds
+    if late in others or not others:
+        return not others
+    space = Space(first.space.declared, (*others, late))
+    start = np.append(final.u, first.u[first.space.places(late.name)])
+    return filter_behind(fit_prediction(space, first.stretches, start, first.gains)) is not None
+
+
+def _unfiltered(found: Found, question: Question) -> Found:
+    """Search again where what is left of a filter may be held against the names found."""
+    behind = filter_behind(found.undoubted.final)
+    if behind is None:
+        return found
+    other = _undoing(behind, found.recordings, question)
+    # What is undone must not bring about what was not there, and speaks as loudly.
+    if other.unexplained and not found.unexplained and other.unexplained.worth > behind.worth:
+        return found
+    return other
+
+
+def _undoing(behind: Filter, recordings: Recordings, question: Question) -> Found:
+    question.progress('undoing a filter of the twists')
+    undone = recordings.each(partial(unfiltered, behind=behind))
+    return replace(found_in(undone, question), time_constant=behind.time_constant)
+
+
+def allowing_a_lead(found: Found, question: Question) -> Found:
+    """Search again where forces act before their stamps, if that leaves less to be told."""
+    if found.lead > 0.0 or not found.says_something:
+        return found
+    lead = lead_of(found.undoubted.final)
+    if lead <= 0.0:
+        return found
+    other = settled(_taken_as_led(found.recordings, lead, question), question)
+    if other.unexplained or not (found.unexplained or other.names <= found.names):
+        return found
+    return replace(other.timed_like(found), lead=lead)
+
+
+def _taken_as_led(recordings: Recordings, lead: float, question: Question) -> Found:
+    """Search in recordings whose forces are taken to act so long before their stamps [s]."""
+    question.progress('taking forces for older than their stamps')
+    led = recordings.each(partial(acted_before, lead=lead))
+    return replace(found_in(led, question), lead=lead)
