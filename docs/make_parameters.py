@@ -29,7 +29,9 @@ BELONG = {
 }
 ROBOT = """\
 Odometry tells of the point between the wheels. The centre of gravity is there, too, unless
-`com_offset` moves it; the inertia is about the centre of gravity.
+`com_offset` moves it; the inertia is about the centre of gravity. Both hold what turns with the
+wheels: a wheel with its gears and rotor, of moment of inertia I about the axle, adds I/r² to the
+mass and I·b²/r² to the inertia.
 """
 FRICTION = """\
 **Law** of each wheel, eqs. (12) and (13) of the paper, with F_s, F_k, F_v = μ_s, μ_k, μ_v times
@@ -43,6 +45,8 @@ whatever pushes, up to F_s. The models leave out parts:
 | coulomb_stiction | F_s | F_k |
 | coulomb_viscous | F_k | F_k + F_v·v |
 | generalized | F_s | the whole law |
+
+What a model leaves out may stay out of the file, too; where both are used μ_k may not exceed μ_s.
 """
 EFFECTS = """\
 One that is absent is off. Each lives in a file of its own. They are listed in the order in which
@@ -81,7 +85,8 @@ def _effect(kind: type[Effect]) -> Iterator[str]:
     yield f'### `{kind.name}`\n'
     meaning = kind.meaning[0].upper() + kind.meaning[1:]
     law = ' '.join((kind.__doc__ or '').split())
-    yield f'{meaning}. **Law:** {law} Source: {kind.source}. Shown by {kind.excitation}.\n'
+    sought = '' if kind.is_sought else ' Only simulated: `identify` does not look for it.'
+    yield f'{meaning}. **Law:** {law} Source: {kind.source}. Shown by {kind.excitation}.{sought}\n'
     yield _table(_named(kind, f'effects.{kind.name}.'))
 
 

@@ -53,9 +53,9 @@ def borne(
 class PayloadChange(Effect):
     """Mass and inertia jump, the speed does not.
 
-    Friction, dry and viscous, grows by `friction_share` times the share by which mass does: 0
-    where casters carry the load, 1 where it presses on the driven wheels as the robot does, more
-    where more so. A slope pulls at the load, too; a `com_offset` is that of the robot without it.
+    Friction, dry and viscous, times 1 + `friction_share`·(load / mass of the robot): 0 where
+    casters carry the load, 1 where it presses on the driven wheels as the robot does, more where
+    more so. A slope pulls at the load, too; a `com_offset` is that of the robot without it.
     """
 
     name = 'payload_change'

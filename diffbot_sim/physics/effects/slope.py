@@ -28,7 +28,10 @@ def gravity(at: Motion, load: Load, grade_x: float, grade_y: float) -> Load:
 
 @dataclass(frozen=True)
 class Slope(Effect):
-    """Acceleration -g·(grade_x, grade_y) in the world, so it turns with the heading."""
+    """Acceleration -g·(grade_x, grade_y) in the world of the pose, so it turns with the heading.
+
+    The vector points straight uphill; its length is the sine of the slope.
+    """
 
     name = 'slope'
     meaning = 'gravity along a tilted floor, fixed in the world'
