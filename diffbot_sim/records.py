@@ -12,6 +12,8 @@ SIDES = ('right', 'left')
 CONTACT_FRAMES = {side: f'{side}_wheel_contact' for side in SIDES}
 # In a second: stamps of bags and messages are whole numbers of them.
 NANOSECONDS = 1_000_000_000
+# No force [N], speed [m/s] or turn rate [rad/s] of a robot is larger.
+LARGEST = 1e6
 
 
 @dataclass(frozen=True)

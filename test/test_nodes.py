@@ -139,9 +139,13 @@ def test_a_command_is_dropped_when_it_is_too_old(bare):
 
 def test_a_command_of_nan_is_refused_and_the_node_lives_on(bare, started):
     assert twist_of(bare.push(nan, 0.0, 10)[-1]) == (0.0, 0.0)
-    assert 'right_wheel/force_cmd: nan is not finite; ignored' in (
-        started[1]['bare', 'simulator'].said()
-    )
+    said = started[1]['bare', 'simulator'].said()
+    assert 'right_wheel/force_cmd: nan is not finite, or beyond 1e+06; ignored' in said
+    assert twist_of(bare.push(10.0, 10.0, 10)[-1])[0] > 0.0
+
+
+def test_a_command_beyond_any_robot_is_refused_and_the_node_lives_on(bare):
+    assert twist_of(bare.push(1e308, 0.0, 10)[-1]) == (0.0, 0.0)
     assert twist_of(bare.push(10.0, 10.0, 10)[-1])[0] > 0.0
 
 
@@ -239,10 +243,11 @@ def test_the_inner_loop_reaches_a_twist_and_stops_when_commands_cease(plain):
     plain.until(lambda: twist_of(plain.hear(1)[0]) == (0.0, 0.0))
 
 
-def test_the_inner_loop_refuses_nan_and_lives_on(plain, started):
+@pytest.mark.parametrize('speed', [nan, 1e308])
+def test_the_inner_loop_refuses_what_nobody_can_mean_and_lives_on(plain, started, speed):
     said = started[1]['plain', 'pi_controller'].said
-    with plain.publishing('cmd_vel', twist(Twist, nan, 0.0)):
-        plain.until(lambda: 'cmd_vel: nan, 0.0 is not finite' in said())
+    with plain.publishing('cmd_vel', twist(Twist, speed, 0.0)):
+        plain.until(lambda: f'cmd_vel: {speed}, 0.0 is not finite' in said(), patience=20.0)
     drive(plain, 'cmd_vel', twist(Twist, 0.2, 0.0), near=(0.2, 0.0))
 
 

@@ -1,4 +1,4 @@
-"""PI law of one wheel: Fig. 13, with an output limit and anti-windup by back-calculation."""
+"""PI law of one wheel: Fig. 13, with an output limit, a sum within it, and back-calculation."""
 
 from dataclasses import dataclass
 
@@ -38,12 +38,18 @@ def control(
     reference and measured are wheel speeds [rad/s]; dt [s] has passed since the last call;
     in_advance: a force [N] that is given whatever the error.
     """
-    error = reference - measured
+    error, limit = reference - measured, gains.force_limit
     integral += gains.ki * error * dt
     wanted = gains.kp * error + integral + in_advance
-    force = min(max(wanted, -gains.force_limit), gains.force_limit)
+    force = _within(wanted, limit)
     # More than the whole excess would overshoot, so a long dt unwinds it at once.
-    return force, integral + (force - wanted) * min(dt / gains.tracking_time, 1.0)
+    integral += (force - wanted) * min(dt / gains.tracking_time, 1.0)
+    # A reference far out of reach, if only for a moment, must not be made up for afterwards.
+    return force, _within(integral, limit)
+
+
+def _within(force: float, limit: float) -> float:
+    return min(max(force, -limit), limit)
 
 
 def wheel_rates(v: float, omega: float, robot: Robot) -> tuple[float, float]:

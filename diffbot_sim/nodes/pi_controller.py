@@ -1,7 +1,6 @@
 """The inner loop as a node: wanted motion and odometry in, wheel forces out."""
 
 from functools import partial
-from math import isfinite
 
 from geometry_msgs.msg import Twist, TwistStamped, WrenchStamped
 from nav_msgs.msg import Odometry
@@ -15,8 +14,8 @@ from diffbot_sim.nodes.conversions import Pair
 from diffbot_sim.nodes.outputs import DEPTH
 from diffbot_sim.nodes.parameters import Live, build, table
 from diffbot_sim.nodes.running import parse, parser, run
+from diffbot_sim.nodes.sanity import accepts
 from diffbot_sim.nodes.settings import ControllerSettings
-from diffbot_sim.nodes.timing import QUIET
 from diffbot_sim.records import CONTACT_FRAMES, NANOSECONDS, SIDES
 
 LONGEST = 0.1  # [s]; a gap in the odometry must not wind up the integral
@@ -58,7 +57,7 @@ class PiController(Node):
 
     def _on_twist(self, message: Twist | TwistStamped) -> None:
         v, omega = conversions.twist_of(message)
-        if self._accepts('cmd_vel', v, omega):
+        if accepts(self, 'cmd_vel', v, omega):
             rates = wheel_rates(v, omega, self._settings.robot)
             for side, rate in zip(SIDES, rates, strict=True):
                 self._references[side] = Held(rate, self._stamp or 0)
@@ -68,11 +67,11 @@ class PiController(Node):
 
     def _on_wheel_reference(self, side: str, message: TwistStamped) -> None:
         rate = conversions.wheel_rate_of(message)
-        if self._accepts(f'{side}_wheel/velocity_cmd', rate):
+        if accepts(self, f'{side}_wheel/velocity_cmd', rate):
             self._references[side] = Held(rate, self._stamp or 0)
 
     def _on_odometry(self, message: Odometry) -> None:
-        if self._accepts('odom', *conversions.twist_of(message)):
+        if accepts(self, 'odom', *conversions.twist_of(message)):
             self._unanswered = message
             self._answer()
 
@@ -112,15 +111,6 @@ class PiController(Node):
             self._forces[side].publish(conversions.wrench(stamp, frame, values[0]))
             self._wanted[side].publish(conversions.wheel_rate(stamp, frame, values[1]))
             self._measured[side].publish(conversions.wheel_rate(stamp, frame, values[2]))
-
-    def _accepts(self, topic: str, *values: float) -> bool:
-        if all(map(isfinite, values)):
-            return True
-        text = ', '.join(map(str, values))
-        self.get_logger().warning(
-            f'{topic}: {text} is not finite; ignored', throttle_duration_sec=QUIET
-        )
-        return False
 
     def _apply(self, settings: ControllerSettings) -> None:
         self._settings = settings

@@ -1,7 +1,6 @@
 """The simulated robot as a node: wheel forces in, odometry out."""
 
 from functools import partial
-from math import isfinite
 from typing import NamedTuple
 
 from geometry_msgs.msg import PoseWithCovarianceStamped, WrenchStamped
@@ -22,11 +21,12 @@ from diffbot_sim.nodes.parameters import (
     table,
 )
 from diffbot_sim.nodes.running import parse, parser, run
+from diffbot_sim.nodes.sanity import accepts
 from diffbot_sim.nodes.settings import SimulatorSettings
 from diffbot_sim.nodes.timing import QUIET, Lockstep, OnClock
 from diffbot_sim.physics import Model, Plant
 from diffbot_sim.physics.state import State
-from diffbot_sim.records import NANOSECONDS, SIDES
+from diffbot_sim.records import LARGEST, NANOSECONDS, SIDES
 
 
 class Setup(NamedTuple):
@@ -130,12 +130,7 @@ class Simulator(Node):
 
     def _on_command(self, side: str, message: WrenchStamped) -> None:
         force = conversions.force_of(message)
-        if not isfinite(force):
-            self.get_logger().warning(
-                f'{side}_wheel/force_cmd: {force} is not finite; ignored',
-                throttle_duration_sec=QUIET,
-            )
-        elif not self._is_late(message):
+        if accepts(self, f'{side}_wheel/force_cmd', force) and not self._is_late(message):
             self._commands[side] = Held(force, self.stamp)
             self._time.heard(side)
 
@@ -152,7 +147,7 @@ class Simulator(Node):
     def _on_initial_pose(self, message: PoseWithCovarianceStamped) -> None:
         """Put the robot somewhere else, at rest."""
         pose, frame = conversions.pose_of(message), message.header.frame_id
-        if frame in ('', self._outputs.world) and all(map(isfinite, pose)):
+        if frame in ('', self._outputs.world) and all(abs(each) <= LARGEST for each in pose):
             self._plant.place(State(*pose))
             self._commands = dict.fromkeys(SIDES, Held())
         else:
