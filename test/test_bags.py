@@ -105,10 +105,12 @@ def test_a_few_messages_with_nan_are_left_out_and_told(tmp_path):
     write_bag(tmp_path / 'drive', items)
     found = read_run(tmp_path / 'drive')
     assert np.isfinite(found.run.commands.force).all()
-    assert found.notes == (f'drive: left out 1 messages of {RIGHT} that are not finite',)
+    assert found.notes == (
+        f'drive: left out 1 messages of {RIGHT} that are not finite, or beyond 1e+06',
+    )
 
 
-@pytest.mark.parametrize('absurd', [1e4, -1e30])
+@pytest.mark.parametrize('absurd', [1e4, -1e5])
 def test_a_number_out_of_all_proportion_is_left_out_and_told(tmp_path, absurd):
     items = messages(drive())
     items[150] = items[150]._replace(content=wrench(items[150].stamp, '', absurd))
@@ -127,7 +129,7 @@ def test_a_robot_that_moves_for_moments_only_is_believed(tmp_path):
     moves = np.abs(time - 150.0)[:, None] < 0.8
     pose = np.zeros((len(time), 3))
     run = Run(
-        'drive', Commands(time, 5.0 * moves * [1.0, 1.0]), Odometry(time, noise + moves, pose)
+        'drive', Commands(time, 5.0 * moves * [1.0, 0.9]), Odometry(time, noise + moves, pose)
     )
     write_run(tmp_path / 'drive', run, START)
     found = read_run(tmp_path / 'drive')
@@ -139,14 +141,14 @@ def test_holes_in_the_odometry_are_told(tmp_path):
     late = [m._replace(stamp=m.stamp + 4 * 10**9) for m in messages(drive())[150:]]
     late = [stamped(message, message.stamp) for message in late]
     write_bag(tmp_path / 'drive', [*messages(drive())[:150], *late])
-    (note,) = read_run(tmp_path / 'drive').notes
+    (note,) = (note for note in read_run(tmp_path / 'drive').notes if 'holes' in note)
     assert f'drive: {ODOM} has holes: 4.0 s from 0.5 s on; ' in note
 
 
 def test_odometry_that_is_always_slow_has_no_holes(tmp_path):
     slow = [stamped(m, START + 200 * (m.stamp - START)) for m in messages(drive())]
     write_bag(tmp_path / 'drive', [m._replace(stamp=START + 10**9) for m in slow])
-    assert read_run(tmp_path / 'drive').notes == ()
+    assert 'holes' not in ''.join(read_run(tmp_path / 'drive').notes)
 
 
 def test_a_pose_that_nobody_filled_is_no_pose(tmp_path):
@@ -160,7 +162,7 @@ def test_forces_that_fall_silent_while_the_robot_moves_are_told(tmp_path):
     slow = [stamped(m, START + 10 * (m.stamp - START)) for m in messages(drive())]
     kept = [m for i, m in enumerate(slow) if m.topic != RIGHT or not 90 < i < 180]
     write_bag(tmp_path / 'drive', kept)
-    (note,) = read_run(tmp_path / 'drive').notes
+    (note,) = (note for note in read_run(tmp_path / 'drive').notes if 'holes' in note)
     assert f'{RIGHT} has holes: 3.0 s from 3.0 s on; the last force' in note
 
 

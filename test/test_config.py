@@ -155,7 +155,14 @@ def test_wrong_parameters_are_named_with_what_is_valid(tmp_path, text, expected)
     [
         ('', 'empty'),
         ('just words', 'not a mapping'),
-        ('robot: {mass: 1.0}', "no parameters for the simulator. The file starts with '/**:'"),
+        ('other: {ros__parameters: {}}', "for the simulator. The file starts with '/**:'"),
+        ('robot: {mass: 1.0}', "/robot/mass stands outside of 'ros__parameters'"),
+        ('/**: {ros__parameters: {}, effects: {}}', "effects stands beside 'ros__parameters'"),
+        ('/**: {ros__parameters: {ros__parameters: {}}}', 'stands below another one'),
+        (
+            '/a/simulator: {ros__parameters: {}}\nb: {simulator: {ros__parameters: {}}}',
+            'several robots: /a, /b',
+        ),
         ('/**: {ros__parameters: }', 'ros__parameters holds None'),
         ('/**:\n  robot: [1.0', 'line 2: '),
         ('a: {b: 1,\n  b: 2}', 'line 2: b stands twice'),

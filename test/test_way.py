@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from diffbot_sim.identification.recordings.stretches import split
-from diffbot_sim.identification.recordings.way import measured_heading, measured_way, path_of
+from diffbot_sim.identification.recordings.way import measured_heading, measured_way
+from diffbot_sim.physics.kinematics import path_of
 from diffbot_sim.records import Commands, Odometry, Run
 
 TIME = np.arange(0.0, 120.0, 0.02)

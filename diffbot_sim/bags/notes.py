@@ -9,7 +9,7 @@ from diffbot_sim.bags.lost import lost
 from diffbot_sim.bags.pauses import is_within
 from diffbot_sim.bags.poses import is_filled
 from diffbot_sim.bags.series import ABSURD, Ordered, Series, Stamps, silences
-from diffbot_sim.records import NANOSECONDS, Run
+from diffbot_sim.records import LARGEST, NANOSECONDS, Run
 from diffbot_sim.standing import turning, unfilled
 
 MOST = 5  # holes that are told one by one
@@ -58,7 +58,10 @@ def notes_on_clock(series: Series, leaps: Iterable[Leap]) -> Iterator[str]:
 
 def _left_out(item: Ordered) -> Iterator[str]:
     if item.dropped:
-        yield f'left out {item.dropped} messages of {item.topic} that are not finite'
+        yield (
+            f'left out {item.dropped} messages of {item.topic} that are not finite, or beyond '
+            f'{LARGEST:g}'
+        )
     if item.absurd:
         yield (
             f'left out {item.absurd} messages of {item.topic} whose numbers are more than '

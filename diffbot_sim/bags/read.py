@@ -14,6 +14,7 @@ from diffbot_sim.bags.pauses import pauses
 from diffbot_sim.bags.poses import pose_of, without_broken
 from diffbot_sim.bags.series import Ordered, Series, Stamps, held, ordered
 from diffbot_sim.bags.storage import naming, read_series
+from diffbot_sim.bags.suspect import suspicions
 from diffbot_sim.bags.topics import Topics
 from diffbot_sim.errors import BagError
 from diffbot_sim.records import NANOSECONDS, Array, Commands, Odometry, Run
@@ -69,7 +70,7 @@ def _recorded(name: str, series: Mapping[str, Series]) -> RecordedRun:
     start = int(min(stamps[0], odom.stamp[0]))
     run = Run(name, _commands(*forces, start), _odometry(odom, start))
     paused = pauses(usable)
-    notes += (*notes_on(usable, run, start, paused), *bounds)
+    notes += (*notes_on(usable, run, start, paused), *bounds, *suspicions(usable, run))
     spans = (map(float, _seconds(gap, start)) for gap in paused)
     unheard = tuple((begin, end) for begin, end in spans)
     return RecordedRun(run, start, tuple(f'{name}: {note}' for note in notes), unheard)

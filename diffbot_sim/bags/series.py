@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diffbot_sim.errors import BagError
-from diffbot_sim.records import NANOSECONDS, Array
+from diffbot_sim.records import LARGEST, NANOSECONDS, Array
 
 Stamps = NDArray[np.int64]
 
@@ -38,8 +38,8 @@ class Series:
 
     @property
     def has_stamps(self) -> bool:
-        """Whether the headers are filled; a simulation clock may start at 0."""
-        return int(np.count_nonzero(self.stamped == 0)) <= 1
+        """Whether the headers are filled; a simulation clock may start at 0, none before."""
+        return int(np.count_nonzero(self.stamped <= 0)) <= 1
 
 
 @dataclass(frozen=True)
@@ -62,11 +62,11 @@ def ordered(series: Series, stamp: Stamps) -> Ordered:
     """Sort by stamps of one clock; of equal stamps keep the last; leave out what is unusable.
 
     That is what is not finite, and the few whose numbers are out of all proportion.
-    Raises BagError when the clock jumps, most stamps are those of other messages, or more than
-    1 % of the messages are not finite.
+    Raises BagError when the clock jumps, most stamps are those of other messages that tell
+    something else, or more than 1 % of the messages are not finite.
     """
     _check_clock(series.topic, stamp)
-    finite = np.asarray(np.isfinite(series.values).all(axis=1))
+    finite = _is_finite(series)
     _check_finite(series.topic, finite)
     sane = finite.copy()
     sane[finite] = ~_absurd(series.values[finite, : series.measured])
@@ -74,7 +74,8 @@ def ordered(series: Series, stamp: Stamps) -> Ordered:
     order = np.argsort(stamp, kind='stable')
     last = np.append(np.diff(stamp[order]) > 0, True)
     repeated = int(np.count_nonzero(~last))
-    if repeated > MOST_REPEATED * len(stamp):
+    contrary = np.count_nonzero(~last[:-1] & np.any(np.diff(values[order], axis=0), axis=1))
+    if contrary > MOST_REPEATED * len(stamp):
         raise BagError(
             f'{series.topic}: {repeated} of {len(stamp)} messages bear the stamp of another one; '
             'its clock stands still. Stamp each message when it is measured, or leave the stamps '
@@ -108,12 +109,19 @@ def held(series: Ordered, stamps: Stamps) -> Array:
     return np.where(index[:, None] >= 0, series.values[index], 0.0)
 
 
+def _is_finite(series: Series) -> NDArray[np.bool_]:
+    """Return which messages are finite, and tell of no more than any robot does."""
+    measured = np.abs(series.values[:, : series.measured]) <= LARGEST
+    return np.asarray(np.isfinite(series.values).all(axis=1) & measured.all(axis=1))
+
+
 def _check_finite(topic: str, finite: NDArray[np.bool_]) -> None:
     dropped = np.count_nonzero(~finite)
     if dropped > MOST_UNUSABLE * len(finite):
         raise BagError(
-            f'{topic}: {dropped} of {len(finite)} messages hold NaN or infinity, '
-            'which is too many to leave out. Mend their source and record again.'
+            f'{topic}: {dropped} of {len(finite)} messages hold NaN, infinity or '
+            f'numbers beyond {LARGEST:g}, which is too many to leave out. Mend their source and '
+            'record again.'
         )
 
 

@@ -1,6 +1,6 @@
 """Parameter files: the ROS 2 form of a model's parameters."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -52,27 +52,55 @@ def save_model(model: Model, path: str | Path, comment: str = '') -> None:
 
 def _merged(path: str | Path, option: str) -> dict[str, Any]:
     """Lay all sections for the simulator over each other."""
-    merged: dict[str, Any] = {}
-    found = False
-    for section in _sections(read_document(path, option, FORM)):
-        if not isinstance(section, Mapping):
-            raise ConfigError(f'{path}: {PARAMETERS} holds {section!r}, not keys and values.')
-        _merge(merged, section)
-        found = True
+    found = {
+        name: values
+        for name, values in _sections(read_document(path, option, FORM), path)
+        if name.rpartition('/')[2] in NODES
+    }
     if not found:
         raise ConfigError(f'{path}: no parameters for the simulator. {FORM}')
+    _check_robots(path, found)
+    merged: dict[str, Any] = {}
+    for values in found.values():
+        _merge(merged, values)
     return merged
 
 
-def _sections(document: Mapping[Any, Any]) -> Iterator[Any]:
-    """Find the parameters that reach the simulator, also below nested namespaces."""
+def _sections(
+    document: Mapping[Any, Any], path: str | Path, above: str = ''
+) -> Iterator[tuple[str, Mapping[Any, Any]]]:
+    """Find what each node is given, also below nested namespaces.
+
+    Raises ConfigError where something stands where no node would read it.
+    """
     for key, body in document.items():
+        name = f'{above}/{str(key).strip("/")}'
         if not isinstance(body, Mapping):
-            continue
+            raise ConfigError(f"{path}: {name} stands outside of '{PARAMETERS}'. {FORM}")
         if PARAMETERS not in body:
-            yield from _sections(body)
-        elif str(key).rpartition('/')[2] in NODES:
-            yield body[PARAMETERS]
+            yield from _sections(body, path, name)
+            continue
+        values, beside = body[PARAMETERS], [str(each) for each in body if each != PARAMETERS]
+        if beside:
+            raise ConfigError(f"{path}: {beside[0]} stands beside '{PARAMETERS}'. {FORM}")
+        if not isinstance(values, Mapping):
+            raise ConfigError(f'{path}: {PARAMETERS} holds {values!r}, not keys and values.')
+        if PARAMETERS in values:
+            raise ConfigError(
+                f"{path}: '{PARAMETERS}' stands below another one; keep one of them."
+            )
+        yield name, values
+
+
+def _check_robots(path: str | Path, names: Iterable[str]) -> None:
+    """Refuse a file with the parameters of several robots: they would be laid over each other."""
+    spaces = (name.rpartition('/')[0] for name in names)
+    robots = sorted({space for space in spaces if space.strip('/*')})
+    if len(robots) > 1:
+        raise ConfigError(
+            f'{path}: holds the parameters of several robots: {", ".join(robots)}. Give a file '
+            'with those of one.'
+        )
 
 
 def _merge(base: dict[str, Any], section: Mapping[Any, Any]) -> None:

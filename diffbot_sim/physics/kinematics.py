@@ -35,3 +35,12 @@ def turning_radius(speed_right: Array, speed_left: Array, half_separation: float
     total = np.asarray(speed_right, float) + speed_left
     with np.errstate(divide='ignore', invalid='ignore'):
         return np.where(difference == 0.0, np.inf, half_separation * total / difference)
+
+
+def path_of(pose: Array) -> Array:
+    """Return way ahead [m] and heading [rad], shape (k, 2), from poses (k, 3)."""
+    step, middle = np.diff(pose, axis=0), 0.5 * (pose[1:, 2] + pose[:-1, 2])
+    chord = step[:, 0] * np.cos(middle) + step[:, 1] * np.sin(middle)
+    # An arc is longer than its chord.
+    ahead = chord / np.sinc(step[:, 2] / (2.0 * np.pi))
+    return np.column_stack([np.concatenate([[0.0], np.cumsum(ahead)]), pose[:, 2]])

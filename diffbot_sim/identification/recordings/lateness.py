@@ -16,9 +16,10 @@ from scipy.stats import wilcoxon
 from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.recordings.smoothing import smoothed_over
 from diffbot_sim.identification.recordings.stretches import averaged
-from diffbot_sim.identification.recordings.way import path_of, pose_knows_more
+from diffbot_sim.identification.recordings.way import pose_knows_more
 from diffbot_sim.identification.result import Timing
 from diffbot_sim.identification.statistics.norms import rms_of_each, white_noise
+from diffbot_sim.physics.kinematics import path_of
 from diffbot_sim.records import Array, Odometry, Run
 from diffbot_sim.standing import unfilled
 

@@ -9,6 +9,7 @@ from scipy.ndimage import uniform_filter1d
 
 from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.statistics.norms import rms_of_each, white_noise
+from diffbot_sim.physics.kinematics import path_of
 from diffbot_sim.records import Array, Odometry
 
 # Over which time what a pose tells beyond its twist is smoothed, and after which it is held
@@ -98,15 +99,6 @@ def integral(time: Array, rate: Array) -> Array:
     """Return the integral of a measured rate from the first stamp on, by trapezoids."""
     steps = np.diff(time) * 0.5 * (rate[1:] + rate[:-1])
     return np.concatenate([[0.0], np.cumsum(steps)])
-
-
-def path_of(pose: Array) -> Array:
-    """Return way ahead [m] and heading [rad], shape (k, 2), from poses (k, 3)."""
-    step, middle = np.diff(pose, axis=0), 0.5 * (pose[1:, 2] + pose[:-1, 2])
-    chord = step[:, 0] * np.cos(middle) + step[:, 1] * np.sin(middle)
-    # An arc is longer than its chord.
-    ahead = chord / np.sinc(step[:, 2] / (2.0 * np.pi))
-    return np.column_stack([np.concatenate([[0.0], np.cumsum(ahead)]), pose[:, 2]])
 
 
 def _knows_more(odometry: Odometry, pose: Array, beyond: Array) -> bool:
