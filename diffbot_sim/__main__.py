@@ -8,6 +8,7 @@ from argparse import ArgumentParser, RawDescriptionHelpFormatter
 from collections.abc import Iterable, Iterator, Sequence
 from importlib import import_module
 from importlib.resources import files
+from io import TextIOWrapper
 from threading import Timer
 from typing import Any, NoReturn
 
@@ -30,9 +31,11 @@ def main(argv: Sequence[str] | None = None, command: str | None = None) -> int:
     leaves with SystemExit(2).
     """
     words = [*([command] if command else []), *(sys.argv[1:] if argv is None else argv)]
+    _forgive()
     try:
         code = _run(words)
-        sys.stdout.flush()
+        if sys.stdout:  # which may be closed
+            sys.stdout.flush()
     except BrokenPipeError:
         return _hush()
     except (DiffbotError, OSError) as problem:
@@ -115,6 +118,13 @@ def _loaded(module: str) -> Any:
         ) from error
     finally:
         explains.cancel()
+
+
+def _forgive() -> None:
+    """Let terminals that lack a letter, such as ω, show a question mark in its place."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors='replace')
 
 
 def _hush() -> int:

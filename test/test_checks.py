@@ -43,6 +43,12 @@ def test_forces_that_are_all_zero_are_refused() -> None:
         check(*split([replace(DRIVEN, commands=given)]))
 
 
+def test_odometry_that_stands_still_while_it_moves_is_refused() -> None:
+    frozen = np.tile(DRIVEN.odometry.twist[1000], (len(DRIVEN.odometry.time), 1))
+    with pytest.raises(DataError, match='tells the same twist throughout'):
+        check(*split([replace(DRIVEN, odometry=replace(DRIVEN.odometry, twist=frozen))]))
+
+
 @pytest.mark.parametrize(('begin', 'where'), [(0.0, 'is fitted'), (25.0, 'is held out')])
 def test_robot_that_shows_nothing_but_noise_is_refused(begin: float, where: str) -> None:
     with pytest.raises(DataError, match=f'never moves in what {where}'):

@@ -1,5 +1,6 @@
 """The command line: what it offers, what it answers, how it ends."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -97,3 +98,22 @@ def test_a_node_without_ros_says_what_to_install():
     )
     assert alone.returncode == 1
     assert "simulator needs 'rclpy', which is not installed. Source" in alone.stderr
+
+
+def test_a_folder_without_a_name_is_refused(capsys):
+    words = ('simulate', 'BAG', '--params', 'FILE', '--out', '')
+    assert 'argument --out: the name of the folder is empty' in refused(capsys, *words)
+
+
+def test_a_terminal_that_lacks_letters_ends_no_command():
+    command = [sys.executable, '-m', 'diffbot_sim', 'simulate', '--help']
+    ascii_only = {**os.environ, 'PYTHONIOENCODING': 'ascii'}
+    told = subprocess.run(command, env=ascii_only, cwd=ROOT, capture_output=True, check=False)
+    assert told.returncode == 0
+    assert b'imbalance ? of the gains' in told.stdout
+
+
+def test_a_command_whose_output_is_closed_ends_well(monkeypatch):
+    monkeypatch.setattr(simulate, 'run', lambda arguments: None)
+    monkeypatch.setattr(sys, 'stdout', None)
+    assert main(['simulate', 'BAG', '--params', 'FILE', '--out', 'DIR']) == 0

@@ -9,6 +9,7 @@ from time import monotonic, sleep
 import numpy as np
 import pytest
 from geometry_msgs.msg import Twist, TwistStamped, WrenchStamped
+from nav_msgs.msg import Odometry
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 from ros_robot import PATIENCE, Robot, refusal, running, stamps
@@ -268,3 +269,15 @@ def test_the_inner_loop_holds_a_stamped_twist_on_a_slope_at_double_speed(loaded)
     held = loaded.hear(300)[-100:]  # 3 s without a command, and no time-out
     # A machine that halts the loop for a moment lets the slope have the robot: hence the median.
     assert np.median([twist_of(m) for m in held], axis=0) == pytest.approx((0.3, 0.0), abs=NEAR)
+
+
+def test_a_twist_of_the_other_type_is_told(plain, started):
+    said = started[1]['plain', 'pi_controller'].said
+    with plain.publishing('cmd_vel', twist(TwistStamped, 0.2, 0.0)):
+        plain.until(lambda: 'start it with enable_stamped_cmd_vel:=true' in said())
+
+
+def test_another_robot_on_the_same_odometry_is_told(loaded, started):
+    said = started[1]['loaded', 'simulator'].said
+    with loaded.publishing('odom', Odometry()):
+        loaded.until(lambda: '/odom: 1 other publisher; is another simulator running?' in said())

@@ -132,6 +132,11 @@ def test_a_recorder_refuses_a_folder_that_exists(tmp_path):
     assert 'exists already' in refusal('recorder', '--output', str(tmp_path))
 
 
+def test_a_recorder_refuses_what_is_no_name_of_a_topic(tmp_path):
+    said = refusal('recorder', '-o', str(tmp_path / 'bag'), '--topics', 'bad topic!')
+    assert "topics: 'bad topic!' is no name of a topic" in said
+
+
 def test_replay_says_what_is_wrong_with_a_bag(bag, tmp_path):
     assert 'there is no such bag' in refusal('replay', str(tmp_path / 'none'))
     assert 'The bag holds /joint_states' in refusal('replay', str(bag), '--topics', 'image')

@@ -10,6 +10,7 @@ import pytest
 from drives import START, drive, messages
 from rosbags.rosbag2 import Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from zstandard import ZstdCompressor
 
 from diffbot_sim.__main__ import main
 from diffbot_sim.bags import read_run, write_run
@@ -84,11 +85,18 @@ def test_what_sqlite_had_not_yet_put_into_the_file_comes_back_too(tmp_path):
     assert len(held(tmp_path / 'whole')) == len(CONTENT)
 
 
-def test_finished_parts_and_the_one_that_was_cut_off_are_put_together(tmp_path):
+@pytest.mark.parametrize('packed', [False, True])
+def test_finished_parts_and_the_one_that_was_cut_off_are_put_together(tmp_path, packed):
     writer = PartsWriter(tmp_path / 'cut', 'mcap', Limits(duration=0.3))
     for message in CONTENT:
         writer.write(message)
     writer.flush()
+    if packed:  # as `ros2 bag record --compression-mode file` leaves them
+        first = min((tmp_path / 'cut').iterdir())
+        first.with_name(f'{first.name}.zstd').write_bytes(
+            ZstdCompressor().compress(first.read_bytes())
+        )
+        first.unlink()
     assert 'diffbot_sim recover' in refused(lambda: read_run(tmp_path / 'cut'))
     recover(tmp_path / 'cut', tmp_path / 'whole')
     assert held(tmp_path / 'whole') == [(m.stamp, m.topic, m.data) for m in CONTENT]

@@ -57,6 +57,8 @@ def by_another_clock(run: Run, late: float) -> Run:
         (with_forces(drive(), -1.0, -1.0), 'both forces had the other sign'),
         (with_forces(drive(), -1.0, 1.0), 'the force of the right wheel had the other sign'),
         (with_forces(drive(), 1.0, -1.0), 'the force of the left wheel had the other sign'),
+        (with_forces(drive(), 1e3, 1e3), 'the forces were told in mN'),
+        (with_forces(drive(), 1e-3, 1e-3), 'the forces were told in kN'),
         (with_twist(drive(), 1000.0, 1.0), 'the speed was told in mm/s'),
         (with_twist(drive(), 1.0, 180.0 / np.pi), 'the turn rate was told in degrees'),
         (

@@ -8,6 +8,7 @@ from pathlib import Path
 from diffbot_sim.bags.copying import Saved, copy_messages
 from diffbot_sim.bags.folder import whole_or_not_at_all
 from diffbot_sim.bags.mending import BESIDE, mend
+from diffbot_sim.bags.packed import is_packed, unpacked
 from diffbot_sim.bags.storage import FORM, STORAGE, check_single, naming, opened
 from diffbot_sim.errors import BagError
 
@@ -53,7 +54,11 @@ def _files(bag: Path) -> list[Path]:
     with naming(bag):
         check_single(bag)
     found = [bag] if bag.is_file() else [file for file in bag.rglob('*') if file.is_file()]
-    files = [file for file in found if file.suffix in STORAGE]
+    whole = [file for file in found if file.suffix in STORAGE]
+    # A recorder compresses parts that are finished, and then removes them.
+    files = whole + [
+        file for file in found if is_packed(file) and file.with_suffix('') not in whole
+    ]
     if not files:
         raise BagError(f'{bag}: not a bag. {FORM}')
     for file in files:
@@ -62,8 +67,12 @@ def _files(bag: Path) -> list[Path]:
 
 
 def _mended(files: Iterable[Path], workplace: Path) -> Iterator[Path]:
-    """Return the files, a mended copy in place of each that is cut; none where nothing is left."""
-    for number, file in enumerate(files):
+    """Return the files, a mended copy in place of each that is cut; none where nothing is left.
+
+    Compressed ones are unpacked first.
+    """
+    for number, given in enumerate(files):
+        file = unpacked(given, workplace) if is_packed(given) else given
         copy = workplace / f'mended_{number}{file.suffix}'
         if is_whole(file):
             yield file

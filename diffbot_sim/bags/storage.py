@@ -15,12 +15,17 @@ from diffbot_sim.bags.topics import Topics, absolute, find_topics
 from diffbot_sim.errors import BagError
 from diffbot_sim.records import NANOSECONDS
 
-STORAGE = ('.mcap', '.db3')
+STORAGE, PACKED = ('.mcap', '.db3'), '.zstd'
 FORM = 'A bag is a folder that holds metadata.yaml, or one .mcap or .db3 file.'
 MEND = "Save what can be read with 'diffbot_sim recover BAG --out DIR'."
 ROWS = {'left_force': wrench_row, 'right_force': wrench_row, 'odom': odometry_row}
 # How many numbers of a row are a force, or a twist; the others of odometry are a place.
 MEASURED = {'left_force': 1, 'right_force': 1, 'odom': 2}
+
+
+def is_part(file: Path) -> bool:
+    """Say whether a file is a part of a bag, compressed or not."""
+    return (file.with_suffix('') if file.suffix == PACKED else file).suffix in STORAGE
 
 
 def read_series(path: Path, topics: Topics) -> dict[str, Series]:
@@ -88,9 +93,9 @@ def check_place(path: Path) -> None:
     if not path.exists():
         raise BagError('there is no such bag.')
     if path.is_file() and path.suffix not in STORAGE:
-        raise BagError(f'not a bag. {FORM}')
+        raise BagError(f'compressed. {MEND}' if is_part(path) else f'not a bag. {FORM}')
     if path.is_dir() and not (path / METADATA).exists():
         check_single(path)
-        if any(file.suffix in STORAGE for file in path.rglob('*')):
+        if any(is_part(file) for file in path.rglob('*')):
             raise BagError(f'no metadata.yaml: the recording was cut off. {MEND}')
         raise BagError(f'not a bag. {FORM}')

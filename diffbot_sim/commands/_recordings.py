@@ -2,7 +2,7 @@
 
 import os
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -14,6 +14,13 @@ MEANING = {
     'right-force': "the right wheel's force, likewise",
     'odom': 'the odometry; usually odom',
 }
+
+
+def folder(name: str) -> Path:
+    """Read the name of a folder; that of a variable that is not set is empty."""
+    if not name:
+        raise ArgumentTypeError('the name of the folder is empty')
+    return Path(name)
 
 
 def add_topic_options(parser: ArgumentParser) -> None:

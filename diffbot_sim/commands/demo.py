@@ -15,6 +15,7 @@ from diffbot_sim.__main__ import main
 from diffbot_sim.bags import read_run
 from diffbot_sim.bags.topics import NAMES
 from diffbot_sim.commands._processes import Process, free_domain, stopped_at_end
+from diffbot_sim.commands._recordings import folder
 from diffbot_sim.config import save_model
 from diffbot_sim.errors import DiffbotError
 from diffbot_sim.physics import simulate
@@ -32,7 +33,7 @@ MISCALIBRATION, SIZES = 0.1, (2.0, 5.0)
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Declare the options."""
-    parser.add_argument('--out', type=Path, default=Path('out/demo'), metavar='DIR')
+    parser.add_argument('--out', type=folder, default=Path('out/demo'), metavar='DIR')
     parser.add_argument('--seed', type=int, help='repeats the hidden effect and the drives')
 
 

@@ -8,7 +8,7 @@ from itertools import count
 from pathlib import Path
 
 from diffbot_sim.bags import RecordedRun, check_replaceable, write_series
-from diffbot_sim.commands._recordings import add_topic_options, check_out, read_bags
+from diffbot_sim.commands._recordings import add_topic_options, check_out, folder, read_bags
 from diffbot_sim.commands._residual import residual_series
 from diffbot_sim.config import left_out, load_model, save_model
 from diffbot_sim.errors import DiffbotError
@@ -39,7 +39,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         help='parameter file (YAML) with what is known',
     )
     parser.add_argument(
-        '--out', type=Path, required=True, metavar='DIR', help='folder for the results'
+        '--out', type=folder, required=True, metavar='DIR', help='folder for the results'
     )
     parser.add_argument(
         '--validate',

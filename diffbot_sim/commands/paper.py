@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from diffbot_sim.commands._recordings import check_out
+from diffbot_sim.commands._recordings import check_out, folder
 from diffbot_sim.errors import DiffbotError
 from diffbot_sim.paper.catalogue import ERRATA, EXPERIMENTS, chosen
 from diffbot_sim.paper.constants import Constants, load_constants
@@ -26,7 +26,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         '--out',
-        type=Path,
+        type=folder,
         default=Path('out/paper'),
         metavar='DIR',
         help='folder for page, figures and series (default out/paper)',

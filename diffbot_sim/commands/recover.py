@@ -4,7 +4,7 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
 from diffbot_sim.bags.recover import Recovery, recover
-from diffbot_sim.commands._recordings import check_out
+from diffbot_sim.commands._recordings import check_out, folder
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -13,7 +13,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         'bag', type=Path, metavar='BAG', help='folder of the bag, or its .mcap or .db3 file'
     )
     parser.add_argument(
-        '--out', type=Path, required=True, metavar='DIR', help='folder of the new bag'
+        '--out', type=folder, required=True, metavar='DIR', help='folder of the new bag'
     )
 
 

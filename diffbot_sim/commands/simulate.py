@@ -8,7 +8,13 @@ import numpy as np
 
 from diffbot_sim.bags import write_trajectory
 from diffbot_sim.commands._help import drive_help, effects_help
-from diffbot_sim.commands._recordings import MEANING, add_topic_options, check_out, read_bags
+from diffbot_sim.commands._recordings import (
+    MEANING,
+    add_topic_options,
+    check_out,
+    folder,
+    read_bags,
+)
 from diffbot_sim.commands._training import write_training_data
 from diffbot_sim.config import load_model
 from diffbot_sim.physics import simulate
@@ -31,7 +37,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument('--params', required=True, metavar='FILE', help='parameter file (YAML)')
     parser.add_argument(
-        '--out', type=Path, required=True, metavar='DIR', help='the bag, or the folder of tables'
+        '--out', type=folder, required=True, metavar='DIR', help='the bag, or the folder of tables'
     )
     add_topic_options(parser)
     training = parser.add_argument_group('with --drive')

@@ -10,6 +10,7 @@ from diffbot_sim.control.held import Held
 from diffbot_sim.control.loop import InnerLoop
 from diffbot_sim.control.pi import wheel_rates
 from diffbot_sim.nodes import conversions
+from diffbot_sim.nodes.company import watch_for_type
 from diffbot_sim.nodes.conversions import Pair
 from diffbot_sim.nodes.outputs import DEPTH
 from diffbot_sim.nodes.parameters import Live, build, table
@@ -53,6 +54,8 @@ class PiController(Node):
             self._measured[side] = self.create_publisher(TwistStamped, f'{wheel}/velocity', DEPTH)
             self.create_subscription(TwistStamped, f'{wheel}/velocity_cmd', act, DEPTH)
         self.create_subscription(command, 'cmd_vel', self._on_twist, DEPTH)
+        other = 'false' if self._settings.enable_stamped_cmd_vel else 'true'
+        watch_for_type(self, 'cmd_vel', command, f'start it with enable_stamped_cmd_vel:={other}')
         self.create_subscription(Odometry, 'odom', self._on_odometry, DEPTH)
 
     def _on_twist(self, message: Twist | TwistStamped) -> None:

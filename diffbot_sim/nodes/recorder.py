@@ -1,5 +1,6 @@
 """Record topics to a bag: serialized messages as they come, closed cleanly at the end."""
 
+from collections.abc import Iterable
 from datetime import datetime
 from functools import partial
 from math import inf
@@ -7,12 +8,15 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from rclpy.event_handler import SubscriptionEventCallbacks
+from rclpy.exceptions import InvalidTopicNameException
 from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.validate_topic_name import validate_topic_name
 
 from diffbot_sim.bags.parts import Limits, recording
 from diffbot_sim.bags.raw import Offer, Raw, is_standard
+from diffbot_sim.errors import ConfigError
 from diffbot_sim.nodes import conversions
 from diffbot_sim.nodes.parameters import Live, build, table
 from diffbot_sim.nodes.running import overrides, parse, parser, run
@@ -55,6 +59,7 @@ class Recorder(Node):
         self._listeners: dict[str, Any] = {}
         self._heard: dict[str, int] = {}  # when the last message of a topic came [ns]
         self._wanted = settings.topics
+        _check_names(self._wanted)
         self._look()
         self.create_timer(LOOK_AGAIN, self._look)
         self.create_timer(FLUSH, self._flush, clock=steady_clock())
@@ -144,6 +149,15 @@ class Recorder(Node):
             return self.get_clock().now().nanoseconds
         stamp, last = int(info['received_timestamp']), self._heard.get(topic, 0)
         return last if stamp < last < stamp + LONGEST_WAIT else stamp
+
+
+def _check_names(topics: Iterable[str]) -> None:
+    for topic in topics:
+        try:
+            validate_topic_name(topic)
+        except InvalidTopicNameException as error:
+            reason = str(error).splitlines()[0].removeprefix('Invalid topic name: ').rstrip(':')
+            raise ConfigError(f"topics: '{topic}' is no name of a topic: {reason}") from error
 
 
 def _limits(settings: RecorderSettings) -> Limits:

@@ -9,6 +9,7 @@ from std_srvs.srv import Empty, SetBool, Trigger
 
 from diffbot_sim.control.held import Held
 from diffbot_sim.nodes import conversions
+from diffbot_sim.nodes.company import watch_for_doubles
 from diffbot_sim.nodes.odometer import Odometer
 from diffbot_sim.nodes.outputs import DEPTH, Outputs
 from diffbot_sim.nodes.parameters import (
@@ -81,6 +82,7 @@ class Simulator(Node):
 
     def _connect(self) -> None:
         self._outputs = Outputs(self, self._settings)
+        watch_for_doubles(self, 'odom')
         for side in SIDES:
             topic, act = f'{side}_wheel/force_cmd', partial(self._on_command, side)
             self.create_subscription(WrenchStamped, topic, act, DEPTH)

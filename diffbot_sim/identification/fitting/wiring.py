@@ -65,6 +65,8 @@ FAULTS = (
     Fault(
         'the force of the left wheel had the other sign', partial(_driven, by=LEFT_FLIPPED), (0, 1)
     ),
+    Fault('the forces were told in mN', partial(_driven, by=1e-3 * np.eye(2)), (0, 1)),
+    Fault('the forces were told in kN', partial(_driven, by=1e3 * np.eye(2)), (0, 1)),
     Fault('the speed was told in mm/s', partial(_rescaled, units=np.array([1e-3, 1.0])), (0,)),
     Fault('the speed was told in cm/s', partial(_rescaled, units=np.array([1e-2, 1.0])), (0,)),
     Fault(

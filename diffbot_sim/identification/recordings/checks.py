@@ -21,6 +21,10 @@ def check(fitted: Sequence[Stretch], held_out: Sequence[Stretch]) -> None:
             f'{_names(fitted)}: the robot never moves in what is fitted; record a drive with '
             'forces that move it.'
         )
+    if not any(np.any(np.ptp(stretch.twist, axis=0)) for stretch in fitted):
+        raise DataError(
+            f'{_names(fitted)}: odometry tells the same twist throughout; record it live.'
+        )
     if largest_command(fitted) == 0.0:
         raise DataError(
             f'{_names(fitted)}: all forces are 0, so no motion follows from them; record the '
