@@ -342,11 +342,14 @@ def test_parameters_beside_the_effects_found_are_told() -> None:
     assert 'with effects, 95' not in by_hand.page(by_hand.nothing_missing())
 
 
+@pytest.mark.parametrize('result', [by_hand.nothing_missing(), by_hand.found()])
 @pytest.mark.parametrize(('error', 'told'), [(0.0041, False), (0.04, True)])
-def test_error_far_above_the_noise_is_not_passed_over(error: float, told: bool) -> None:
-    left = replace(by_hand.errors(error), recalibrated=by_hand.ErrorNorm(error, 0.008))
-    said = sentences.verdict(replace(by_hand.nothing_missing(), errors=left))
-    assert ('uneven floor' in said) == told
+def test_error_far_above_the_noise_is_not_passed_over(
+    result: Identification, error: float, told: bool
+) -> None:
+    left = by_hand.ErrorNorm(error, 0.008)
+    errors = replace(by_hand.errors(error), recalibrated=left, with_effects=left)
+    assert ('uneven floor' in sentences.verdict(replace(result, errors=errors))) == told
 
 
 @pytest.mark.parametrize(

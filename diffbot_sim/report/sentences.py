@@ -44,7 +44,7 @@ def verdict(result: Identification) -> str:
     found = _listed([_named(effect) for effect in result.effects])
     denied = f'; contradicted: {_declared(result.contradicted)}' if result.contradicted else ''
     if result.verdict == EFFECTS_FOUND:
-        besides = f'; left unexplained: {_left(result)}' if result.unexplained else ''
+        besides = f'; left unexplained: {_left(result)}' if result.unexplained else _pushed(result)
         return f'Found: {found}{denied}; {_fall(result.errors)}{besides}.'
     besides = f'; found besides: {found}' if result.effects else ''
     return f'Unexplained: {_left(result)}{besides}{denied}; {_fall(result.errors)}.'
@@ -86,16 +86,21 @@ def _declared(contradicted: Sequence[str]) -> str:
 
 
 def _sufficient(result: Identification) -> str:
-    errors = result.errors
-    left, floor = errors.recalibrated, errors.noise_floor
-    near = left.v_rmse < NEAR * floor.v_rmse and left.omega_rmse < NEAR * floor.omega_rmse
-    rest = '' if near else PUSHED
+    left, floor = result.errors.recalibrated, result.errors.noise_floor
     without = ' without that' if result.contradicted else ''
     return (
         f'recalibrated{without}, the declared model predicts held-out speed to '
         f'{speed_text(left.v_rmse)} and turn rate to {turn_rate_text(left.omega_rmse)}; '
-        f'noise floor {speed_text(floor.v_rmse)} and {turn_rate_text(floor.omega_rmse)}{rest}'
+        f'noise floor {speed_text(floor.v_rmse)} and {turn_rate_text(floor.omega_rmse)}'
+        f'{_pushed(result)}'
     )
+
+
+def _pushed(result: Identification) -> str:
+    """Say of what is left without a visible cause that it has none; empty near the noise."""
+    left, floor = result.errors.with_effects, result.errors.noise_floor
+    near = left.v_rmse < NEAR * floor.v_rmse and left.omega_rmse < NEAR * floor.omega_rmse
+    return '' if near else PUSHED
 
 
 def _named(effect: FoundEffect) -> str:
