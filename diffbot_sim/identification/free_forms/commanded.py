@@ -6,6 +6,7 @@ from diffbot_sim.identification.fitting.periodicity import force_rates, gain_rat
 from diffbot_sim.identification.free_forms.forms import (
     BENT_KNOTS,
     GROWTH_KNOTS,
+    SWITCHED_KNOTS,
     Growth,
     Periodic,
     Piecewise,
@@ -82,7 +83,7 @@ COMMANDED = {
     'force_over_time': Variable(
         'time, in proportion to the commanded force',
         'time [s]',
-        Growth(time_of_wheels, share_of_force, GROWTH_KNOTS),
+        Growth(time_of_wheels, share_of_force, SWITCHED_KNOTS),
         WHEELS,
     ),
     'gain_rhythm': Variable(

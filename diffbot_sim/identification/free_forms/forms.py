@@ -15,6 +15,8 @@ from diffbot_sim.records import Array
 KNOTS, BENT_KNOTS, FEW_KNOTS, FINE_KNOTS = (2, 6), (3, 6), (2, 4), (2, 6, 20)
 # What is alike at all times is a gain, or friction, that the model has.
 GROWTH_KNOTS = (2, 3, 6)
+# What is switched on and off in the course of a run shows in many only.
+SWITCHED_KNOTS = (*GROWTH_KNOTS, 20)
 
 # What a variable is at every sample, shape (k,) or (k, 2).
 Of = Callable[[View], Array]

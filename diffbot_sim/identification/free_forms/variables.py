@@ -8,6 +8,7 @@ from diffbot_sim.identification.free_forms.commanded import COMMANDED
 from diffbot_sim.identification.free_forms.forms import (
     FEW_KNOTS,
     GROWTH_KNOTS,
+    SWITCHED_KNOTS,
     Constant,
     Fading,
     Growth,
@@ -207,7 +208,7 @@ MOTION = {
     'friction_over_time': Variable(
         'time, against the motion',
         'time [s]',
-        Growth(time_of_wheels, rolling, GROWTH_KNOTS),
+        Growth(time_of_wheels, rolling, SWITCHED_KNOTS),
         WHEELS,
     ),
     'warmth': Variable(
