@@ -227,6 +227,14 @@ def test_drive_of_a_wheel_that_pulses_is_told_with_its_period() -> None:
     assert 'every 0.4 s' in result.unexplained.description
 
 
+def test_supply_that_is_switched_now_and_then_is_told_by_time_in_proportion_to_the_force() -> None:
+    drive = random_forces(3, 90.0, -9.0, 11.0)
+    moments = np.cumsum(np.random.default_rng(2).uniform(3.0, 20.0, 20))
+    falls = 1.0 - 0.3 * (np.searchsorted(moments, drive.time) % 2)
+    left, *_ = left_by(acted_otherwise(drive, drive.force * falls[:, None]))
+    assert (left.basis.variable, left.basis.axis) == ('force_over_time', 'wheels')
+
+
 def test_wheels_that_stick_the_more_the_longer_they_rest_are_told_by_their_rest() -> None:
     rests = np.random.default_rng(1).uniform(0.2, 6.0, 24)
     starts = np.cumsum(rests + 3.0) - 3.0
