@@ -57,6 +57,12 @@ def test_one_force_recorded_for_both_wheels_is_noticed(tmp_path):
     assert f'{LEFT} and {RIGHT} hold the same forces though the robot turns' in said
 
 
+def test_a_robot_that_is_driven_straight_has_the_same_forces(tmp_path):
+    force = DRIVE.commands.force[:, [0, 0]]
+    straight = rehearse(Model(), replace(DRIVE.commands, force=force), Surroundings(), 3)
+    assert notes(tmp_path, straight) == ''
+
+
 def test_messages_that_were_recorded_twice_count_once(tmp_path):
     items = messages(DRIVE)
     write_bag(tmp_path / 'drive', [item for item in items for _ in range(2)])

@@ -14,6 +14,8 @@ from diffbot_sim.standing import unfilled
 OVER, DIFFERENT = 1.0, 0.5
 # A way [m] or a turn [rad] of less in that time is none.
 NONE = 0.02
+# It turns either way that does so as fast [rad/s] for this share of the time.
+TURNING, OFTEN = 0.2, 0.05
 
 
 def suspicions(usable: Mapping[str, Ordered], run: Run) -> Iterator[str]:
@@ -59,7 +61,9 @@ def _moved(odometry: Odometry) -> tuple[Array, Array] | None:
 
 
 def _turns(odometry: Odometry) -> bool:
-    return float(np.ptp(odometry.twist[:, 1])) > NONE
+    """Say whether a robot turns either way, by more than wheels that are not quite alike do."""
+    right, left = np.quantile(odometry.twist[:, 1], [OFTEN, 1.0 - OFTEN])
+    return bool(right < -TURNING and left > TURNING)
 
 
 def _rms(values: Array) -> float:
