@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from diffbot_sim.config.document import read_document, write_document
 from diffbot_sim.config.mapping import model_from_mapping, model_to_mapping
@@ -14,6 +14,13 @@ from diffbot_sim.physics.model import Model
 NODES = ('**', '*', 'simulator')
 PARAMETERS = 'ros__parameters'
 FORM = f"The file starts with '/**:' and, indented below it, '{PARAMETERS}:'."
+
+
+class _Section(NamedTuple):
+    """What a file gives a node, by its full name."""
+
+    node: str
+    values: Mapping[Any, Any]
 
 
 def load_model(path: str | Path, option: str = '--params') -> Model:
@@ -52,23 +59,23 @@ def save_model(model: Model, path: str | Path, comment: str = '') -> None:
 
 def _merged(path: str | Path, option: str) -> dict[str, Any]:
     """Lay all sections for the simulator over each other."""
-    found = {
-        name: values
-        for name, values in _sections(read_document(path, option, FORM), path)
-        if name.rpartition('/')[2] in NODES
-    }
+    found = [
+        section
+        for section in _sections(read_document(path, option, FORM), path)
+        if section.node.rpartition('/')[2] in NODES
+    ]
     if not found:
         raise ConfigError(f'{path}: no parameters for the simulator. {FORM}')
-    _check_robots(path, found)
+    _check_robots(path, (section.node for section in found))
     merged: dict[str, Any] = {}
-    for values in found.values():
-        _merge(merged, values)
+    for section in found:
+        _merge(merged, section.values)
     return merged
 
 
 def _sections(
     document: Mapping[Any, Any], path: str | Path, above: str = ''
-) -> Iterator[tuple[str, Mapping[Any, Any]]]:
+) -> Iterator[_Section]:
     """Find what each node is given, also below nested namespaces.
 
     Raises ConfigError where something stands where no node would read it.
@@ -89,12 +96,12 @@ def _sections(
             raise ConfigError(
                 f"{path}: '{PARAMETERS}' stands below another one; keep one of them."
             )
-        yield name, values
+        yield _Section(name, values)
 
 
-def _check_robots(path: str | Path, names: Iterable[str]) -> None:
+def _check_robots(path: str | Path, nodes: Iterable[str]) -> None:
     """Refuse a file with the parameters of several robots: they would be laid over each other."""
-    spaces = (name.rpartition('/')[0] for name in names)
+    spaces = (node.rpartition('/')[0] for node in nodes)
     robots = sorted({space for space in spaces if space.strip('/*')})
     if len(robots) > 1:
         raise ConfigError(
