@@ -1,5 +1,6 @@
 """What a recording is known to hold: forces end, begin late, and clocks are set while it runs."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +17,11 @@ SECOND = 10**9
 
 
 def slowly(run: Run | None = None) -> list[Message]:
-    """Make the messages of a drive of ten seconds."""
-    return [stamped(m, START + 10 * (m.stamp - START)) for m in messages(run or drive())]
+    """Make the messages of a drive of ten seconds; its poses are left unfilled."""
+    run = run or drive()
+    unfilled = replace(run.odometry, pose=np.zeros((len(run.odometry.time), 3)))
+    items = messages(replace(run, odometry=unfilled))
+    return [stamped(m, START + 10 * (m.stamp - START)) for m in items]
 
 
 def read(folder: Path, items: list[Message]) -> RecordedRun:
@@ -92,7 +96,7 @@ def test_twists_that_nobody_filled_are_told(tmp_path):
 
 def long_drive() -> list[Message]:
     time = np.arange(200) / 50.0
-    force, twist = np.sin(time)[:, None] * [1.0, 1.0], np.cos(time)[:, None] * [1.0, 0.5]
+    force, twist = np.sin(time)[:, None] * [1.0, 0.9], np.cos(time)[:, None] * [1.0, 0.5]
     pose = np.column_stack([np.sin(time), time, 0.5 * np.sin(time)])
     return messages(Run('drive', Commands(time, force), Odometry(time, twist, pose)))
 

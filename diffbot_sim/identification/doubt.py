@@ -24,7 +24,6 @@ from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import OUTDONE
 from diffbot_sim.identification.statistics.guards import BLOCK_LEVEL, VERY_STRONG
 from diffbot_sim.identification.suspicion import (
-    SLIGHT,
     WORTHIER,
     doubted_beside,
     in_words,
@@ -41,7 +40,7 @@ TAKEN_SHARE = 0.5
 # by itself.
 LEFT_SHARE, SAME_SHARE = 0.1, 0.15
 # No effect lowered the BIC by more on any of 200 clean robots: a name that keeps more beside what
-# is left, and more than may be a part of that, is no chance.
+# is left is no chance.
 BEYOND_CHANCE = 25.0
 # Friction near rest is allowed for in about its form: of what that explains, as much again as this
 # share may be left.
@@ -250,7 +249,7 @@ def _free_form_of(rest: Fit, final: Fit, left: Dependence) -> Dependence | None:
     unnamed = worth_of(left, final)
     # Beside a larger unknown what either explains only with the other's help is not the name's.
     shared = abs(taken) if unnamed > worth else max(taken, 0.0)
-    much = worth - shared - price > BEYOND_CHANCE + SLIGHT * unnamed
+    much = worth - shared - price > BEYOND_CHANCE
     worthier = WORTHIER * (worth - price) > unnamed
     same = taken >= SAME_SHARE * worth and whole.fall > worth
     return None if not same and (much or worthier) else whole

@@ -7,8 +7,7 @@ from diffbot_sim.identification.selection.trials import BEREFT, INCREDIBLE, Tria
 
 # No refused effect lowered the BIC by so much on any of 200 clean robots.
 SUSPICIOUS = 50.0
-# Beside names a law that is right to a seventh leaves this share of what they explain to others;
-# what has no name leaves as much to names.
+# Beside names a law that is right to a seventh leaves this share of what they explain to others.
 SLIGHT = 0.02
 # A name that is worth less is believed beside what is left, or refused, if that explains less than
 # this share of it.
