@@ -140,8 +140,8 @@ def test_a_command_is_dropped_when_it_is_too_old(bare):
 
 def test_a_command_of_nan_is_refused_and_the_node_lives_on(bare, started):
     assert twist_of(bare.push(nan, 0.0, 10)[-1]) == (0.0, 0.0)
-    said = started[1]['bare', 'simulator'].said()
-    assert 'right_wheel/force_cmd: nan is not finite, or beyond 1e+06; ignored' in said
+    said = started[1]['bare', 'simulator'].said
+    bare.until(lambda: 'force_cmd: nan is not finite, or beyond 1e+06; ignored' in said())
     assert twist_of(bare.push(10.0, 10.0, 10)[-1])[0] > 0.0
 
 
