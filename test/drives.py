@@ -21,6 +21,12 @@ def drive(name: str = 'drive') -> Run:
     return Run(name, Commands(TIME, force), Odometry(TIME, motion, pose))
 
 
+def without_poses(run: Run) -> Run:
+    """Return a run whose poses nobody filled: at another pace its own would deny its twists."""
+    poses = np.zeros((len(run.odometry.time), 3))
+    return replace(run, odometry=replace(run.odometry, pose=poses))
+
+
 def messages(run: Run, prefix: str = '', start: int = START) -> list[Message]:
     """Make the messages of a run one by one, to be spoilt by the test."""
     assert run.odometry.pose is not None

@@ -1,11 +1,10 @@
 """What a recording is known to hold: forces end, begin late, and clocks are set while it runs."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from drives import LEFT, ODOM, RIGHT, START, drive, messages, stamped
+from drives import LEFT, ODOM, RIGHT, START, drive, messages, stamped, without_poses
 
 from diffbot_sim.bags import RecordedRun, read_run
 from diffbot_sim.bags.folder import Message, write_bag
@@ -18,9 +17,7 @@ SECOND = 10**9
 
 def slowly(run: Run | None = None) -> list[Message]:
     """Make the messages of a drive of ten seconds; its poses are left unfilled."""
-    run = run or drive()
-    unfilled = replace(run.odometry, pose=np.zeros((len(run.odometry.time), 3)))
-    items = messages(replace(run, odometry=unfilled))
+    items = messages(without_poses(run or drive()))
     return [stamped(m, START + 10 * (m.stamp - START)) for m in items]
 
 

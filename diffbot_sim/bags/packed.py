@@ -3,6 +3,8 @@
 from contextlib import suppress
 from pathlib import Path
 
+from zstandard import ZstdDecompressor, ZstdError
+
 from diffbot_sim.bags.storage import PACKED, is_part
 
 
@@ -13,9 +15,6 @@ def is_packed(file: Path) -> bool:
 
 def unpacked(file: Path, folder: Path) -> Path:
     """Unpack a file into a folder, up to where it is cut; return the new file."""
-    # Comes with rosbags; what only reads whole bags need not wait for it.
-    from zstandard import ZstdDecompressor, ZstdError
-
     target = folder / file.with_suffix('').name
     with file.open('rb') as source, target.open('wb') as sink, suppress(ZstdError):
         ZstdDecompressor().copy_stream(source, sink)

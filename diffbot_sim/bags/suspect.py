@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from diffbot_sim.bags.series import Ordered
-from diffbot_sim.physics.kinematics import path_of
+from diffbot_sim.physics.kinematics import integral, path_of
 from diffbot_sim.records import Array, Odometry, Run
 from diffbot_sim.standing import unfilled
 
@@ -53,8 +53,7 @@ def _moved(odometry: Odometry) -> tuple[Array, Array] | None:
     time, pose = odometry.time, odometry.pose
     if pose is None or time[-1] - time[0] < OVER:
         return None
-    steps = 0.5 * np.diff(time)[:, None] * (odometry.twist[1:] + odometry.twist[:-1])
-    added = np.vstack([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
+    added = np.column_stack([integral(time, rate) for rate in odometry.twist.T])
     at = np.searchsorted(time, np.arange(time[0], time[-1], OVER))
     whole = np.diff(time[at]) < 1.5 * OVER  # across a hole twists tell nothing
     return np.diff(path_of(pose)[at], axis=0)[whole], np.diff(added[at], axis=0)[whole]

@@ -22,12 +22,12 @@ from diffbot_sim.nodes.parameters import (
     table,
 )
 from diffbot_sim.nodes.running import parse, parser, run
-from diffbot_sim.nodes.sanity import accepts
+from diffbot_sim.nodes.sanity import accepts, are_sane
 from diffbot_sim.nodes.settings import SimulatorSettings
 from diffbot_sim.nodes.timing import QUIET, Lockstep, OnClock
 from diffbot_sim.physics import Model, Plant
 from diffbot_sim.physics.state import State
-from diffbot_sim.records import LARGEST, NANOSECONDS, SIDES
+from diffbot_sim.records import NANOSECONDS, SIDES
 
 
 class Setup(NamedTuple):
@@ -149,7 +149,7 @@ class Simulator(Node):
     def _on_initial_pose(self, message: PoseWithCovarianceStamped) -> None:
         """Put the robot somewhere else, at rest."""
         pose, frame = conversions.pose_of(message), message.header.frame_id
-        if frame in ('', self._outputs.world) and all(abs(each) <= LARGEST for each in pose):
+        if frame in ('', self._outputs.world) and are_sane(pose):
             self._plant.place(State(*pose))
             self._commands = dict.fromkeys(SIDES, Held())
         else:

@@ -44,3 +44,9 @@ def path_of(pose: Array) -> Array:
     # An arc is longer than its chord.
     ahead = chord / np.sinc(step[:, 2] / (2.0 * np.pi))
     return np.column_stack([np.concatenate([[0.0], np.cumsum(ahead)]), pose[:, 2]])
+
+
+def integral(time: Array, rate: Array) -> Array:
+    """Return the integral of a measured rate from the first stamp on, by trapezoids."""
+    steps = np.diff(time) * 0.5 * (rate[1:] + rate[:-1])
+    return np.concatenate([[0.0], np.cumsum(steps)])

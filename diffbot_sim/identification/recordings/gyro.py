@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from diffbot_sim.identification.recordings.way import integral
 from diffbot_sim.identification.result import Bias
-from diffbot_sim.physics.kinematics import path_of
+from diffbot_sim.physics.kinematics import integral, path_of
 from diffbot_sim.records import Array, Odometry, Run
 from diffbot_sim.standing import turning
 

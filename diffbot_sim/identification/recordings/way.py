@@ -9,7 +9,7 @@ from scipy.ndimage import uniform_filter1d
 
 from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.statistics.norms import rms_of_each, white_noise
-from diffbot_sim.physics.kinematics import path_of
+from diffbot_sim.physics.kinematics import integral, path_of
 from diffbot_sim.records import Array, Odometry
 
 # Over which time what a pose tells beyond its twist is smoothed, and after which it is held
@@ -93,12 +93,6 @@ def _added_up(time: Array, rate: Array, mean: bool) -> Array:
     if not mean:
         return integral(time, rate)
     return np.concatenate([[0.0], np.cumsum(np.diff(time) * rate[1:])])
-
-
-def integral(time: Array, rate: Array) -> Array:
-    """Return the integral of a measured rate from the first stamp on, by trapezoids."""
-    steps = np.diff(time) * 0.5 * (rate[1:] + rate[:-1])
-    return np.concatenate([[0.0], np.cumsum(steps)])
 
 
 def _knows_more(odometry: Odometry, pose: Array, beyond: Array) -> bool:
