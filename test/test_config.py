@@ -103,6 +103,12 @@ def test_later_sections_win_whatever_the_form_of_their_key(tmp_path):
     assert load_model(path).robot == Robot(mass=2.0, inertia=0.3)
 
 
+def test_another_node_may_have_no_parameters(tmp_path):
+    of_others = 'recorder: {ros__parameters: }\n'
+    path = written(tmp_path, f'{of_others}simulator: {{ros__parameters: {{robot.mass: 2.0}}}}')
+    assert load_model(path).robot.mass == 2.0
+
+
 def test_numbers_may_be_written_as_ros_reads_them(tmp_path):
     assert load_model(parameters(tmp_path, 'robot: {mass: 2e1, inertia: 1}')).robot.mass == 20.0
 

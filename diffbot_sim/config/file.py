@@ -1,26 +1,18 @@
 """Parameter files: the ROS 2 form of a model's parameters."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from diffbot_sim.config.document import read_document, write_document
 from diffbot_sim.config.mapping import model_from_mapping, model_to_mapping
 from diffbot_sim.config.parts import Part, part_of
+from diffbot_sim.config.sections import FORM, PARAMETERS, Section, sections_in
 from diffbot_sim.errors import ConfigError
 from diffbot_sim.physics.model import Model
 
 # What may follow the last slash of a node key whose parameters reach the simulator.
 NODES = ('**', '*', 'simulator')
-PARAMETERS = 'ros__parameters'
-FORM = f"The file starts with '/**:' and, indented below it, '{PARAMETERS}:'."
-
-
-class _Section(NamedTuple):
-    """What a file gives a node, by its full name."""
-
-    node: str
-    values: Mapping[Any, Any]
 
 
 def load_model(path: str | Path, option: str = '--params') -> Model:
@@ -59,55 +51,29 @@ def save_model(model: Model, path: str | Path, comment: str = '') -> None:
 
 def _merged(path: str | Path, option: str) -> dict[str, Any]:
     """Lay all sections for the simulator over each other."""
-    found = [
-        section
-        for section in _sections(read_document(path, option, FORM), path)
-        if section.node.rpartition('/')[2] in NODES
-    ]
-    if not found:
-        raise ConfigError(f'{path}: no parameters for the simulator. {FORM}')
-    _check_robots(path, (section.node for section in found))
+    document = read_document(path, option, FORM)
     merged: dict[str, Any] = {}
-    for section in found:
-        _merge(merged, section.values)
+    try:
+        for section in _of_one_robot(document):
+            _merge(merged, section.values)
+    except ConfigError as error:
+        raise ConfigError(f'{path}: {error}') from error
     return merged
 
 
-def _sections(
-    document: Mapping[Any, Any], path: str | Path, above: str = ''
-) -> Iterator[_Section]:
-    """Find what each node is given, also below nested namespaces.
-
-    Raises ConfigError where something stands where no node would read it.
-    """
-    for key, body in document.items():
-        name = f'{above}/{str(key).strip("/")}'
-        if not isinstance(body, Mapping):
-            raise ConfigError(f"{path}: {name} stands outside of '{PARAMETERS}'. {FORM}")
-        if PARAMETERS not in body:
-            yield from _sections(body, path, name)
-            continue
-        values, beside = body[PARAMETERS], [str(each) for each in body if each != PARAMETERS]
-        if beside:
-            raise ConfigError(f"{path}: {beside[0]} stands beside '{PARAMETERS}'. {FORM}")
-        if not isinstance(values, Mapping):
-            raise ConfigError(f'{path}: {PARAMETERS} holds {values!r}, not keys and values.')
-        if PARAMETERS in values:
-            raise ConfigError(
-                f"{path}: '{PARAMETERS}' stands below another one; keep one of them."
-            )
-        yield _Section(name, values)
-
-
-def _check_robots(path: str | Path, nodes: Iterable[str]) -> None:
-    """Refuse a file with the parameters of several robots: they would be laid over each other."""
-    spaces = (node.rpartition('/')[0] for node in nodes)
-    robots = sorted({space for space in spaces if space.strip('/*')})
+def _of_one_robot(document: Mapping[Any, Any]) -> list[Section]:
+    """Find the sections for the simulator; those of several robots would be mixed."""
+    found = [each for each in sections_in(document) if each.node.rpartition('/')[2] in NODES]
+    if not found:
+        raise ConfigError(f'no parameters for the simulator. {FORM}')
+    spaces = {section.node.rpartition('/')[0] for section in found}
+    robots = sorted(space for space in spaces if space.strip('/*'))
     if len(robots) > 1:
         raise ConfigError(
-            f'{path}: holds the parameters of several robots: {", ".join(robots)}. Give a file '
-            'with those of one.'
+            f'holds the parameters of several robots: {", ".join(robots)}. Give a file with '
+            'those of one.'
         )
+    return found
 
 
 def _merge(base: dict[str, Any], section: Mapping[Any, Any]) -> None:
