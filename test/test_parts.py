@@ -1,6 +1,9 @@
 """A recording in parts: one bag of several files."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from resource import RLIMIT_FSIZE, getrlimit, setrlimit
 
 import numpy as np
 import pytest
@@ -12,6 +15,7 @@ from diffbot_sim.bags import read_run
 from diffbot_sim.bags.messages import STORE
 from diffbot_sim.bags.parts import Limits, PartsWriter
 from diffbot_sim.bags.raw import Offer, Raw, raw_messages
+from diffbot_sim.bags.recover import recover
 from diffbot_sim.errors import BagError
 
 CONTENT = [
@@ -27,6 +31,25 @@ def recorded(folder: Path, limits: Limits, storage: str = 'mcap') -> Path:
         writer.write(message)
     writer.close()
     return folder
+
+
+def flushed(folder: Path) -> None:
+    """Record, each message handed to the operating system at once."""
+    writer = PartsWriter(folder, 'mcap', Limits(duration=60.0))
+    for message in CONTENT:
+        writer.write(message)
+        writer.flush()
+
+
+@contextmanager
+def files_no_larger_than(size: int) -> Iterator[None]:
+    """Let the system refuse what a file has beyond a size [bytes], as a full disk would."""
+    old = getrlimit(RLIMIT_FSIZE)
+    setrlimit(RLIMIT_FSIZE, (size, old[1]))
+    try:
+        yield
+    finally:
+        setrlimit(RLIMIT_FSIZE, old)
 
 
 def metadata(bag: Path) -> dict:
@@ -97,3 +120,11 @@ def test_an_empty_recording_is_a_bag(tmp_path):
 def test_a_folder_that_exists_is_refused(tmp_path):
     with pytest.raises(BagError, match='exists already'):
         PartsWriter(tmp_path, 'mcap', Limits(duration=1.0))
+
+
+def test_a_bag_that_cannot_grow_is_told_by_name_and_what_it_holds_is_kept(tmp_path):
+    full = rf'{tmp_path}/drive/drive_0: cannot be written on: File too large. Save what'
+    with files_no_larger_than(20_000), pytest.raises(BagError, match=full):
+        flushed(tmp_path / 'drive')
+    saved = recover(tmp_path / 'drive', tmp_path / 'saved').saved
+    assert 0 < saved['/odom'].count < 100
