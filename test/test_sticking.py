@@ -147,6 +147,15 @@ def test_stiff_friction_is_followed_to_terminal_speed(viscous, stribeck):
         assert run.friction[stamp] == pytest.approx((force, 0.45 * force), rel=1e-6)
 
 
+@pytest.mark.parametrize(('normal_force', 'left'), [(1e5, 1e-9), (1e6, 1.0)])
+def test_friction_adds_no_energy_however_stiff_it_is(normal_force, left):
+    """What no step is short enough for keeps its speed."""
+    stiff = Model(friction=Friction(mu_viscous=1e3, normal_force=normal_force))
+    speed = drive(stiff, (0.0, 0.0, 0.0), until=0.02, every=0.01, start=State(v=1.0)).twist[:, 0]
+    assert np.all(np.diff(speed) <= 0.0)
+    assert 0.0 <= speed[-1] <= left
+
+
 def test_coulomb_with_stiction_breaks_at_static_and_slides_at_coulomb_friction():
     model = Model(friction=Friction(model='coulomb_stiction'))
     assert not push(model, 0.99 * STATIC, 0.99 * STATIC, 1.0).wheel_speed.any()

@@ -111,7 +111,7 @@ def test_a_robot_that_stood_when_commands_were_lost_is_seen_to_move():
 
 
 def test_what_is_unsure_comes_as_late_as_its_command():
-    late = scheduled(Model(effects=(ActuatorDelay(0.1),)), LOST.commands)
+    late = scheduled(Model(effects=(ActuatorDelay(0.1),)), LOST.commands, 0.0)
     np.testing.assert_array_equal(late.unsure, LOST.commands.unsure)
 
 

@@ -1,6 +1,6 @@
 """Which topics of a bag hold one robot's forces and odometry."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Container, Iterable, Mapping
 from dataclasses import dataclass, fields
 
 from diffbot_sim.bags.messages import ODOMETRY, WRENCH
@@ -63,14 +63,21 @@ def find_topics(there: Mapping[str, str], given: Topics) -> dict[str, str]:
     return found[0]
 
 
-def _namespaces(there: Mapping[str, str]) -> list[str]:
+def wheel_forces(there: Collection[str]) -> list[str]:
+    """Return the topics of the forces of all robots' wheels, the better one of each wheel."""
+    robots = [_robot(namespace, there, Topics()) for namespace in _namespaces(there)]
+    both = (side for robot in robots for side in (robot.left_force, robot.right_force))
+    return [topic for topic in both if topic is not None]
+
+
+def _namespaces(there: Iterable[str]) -> list[str]:
     """List what stands before the usual names, and '' (no namespace) in any case."""
     usual = [f'/{name}' for names in NAMES.values() for name in names]
     found = {topic.removesuffix(end) for topic in there for end in usual if topic.endswith(end)}
     return sorted(found | {''})
 
 
-def _robot(namespace: str, there: Mapping[str, str], given: Topics) -> Topics:
+def _robot(namespace: str, there: Container[str], given: Topics) -> Topics:
     usual = {
         role: next((topic for name in names if (topic := f'{namespace}/{name}') in there), None)
         for role, names in NAMES.items()

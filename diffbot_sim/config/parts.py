@@ -46,7 +46,7 @@ def checked(
 def _fault(name: str, value: object, where: str, known: Mapping[str, Spec]) -> str | None:
     place = f'{where}.{name}' if where else name
     if name not in known:
-        return f'{place}: unknown parameter. {suggestion(name, list(known))}'
+        return f'{place}: unknown parameter. {suggestion(str(name), list(known))}'
     fault = known[name].fault(value)
     return f'{place}: {fault}' if fault else None
 

@@ -33,6 +33,9 @@ class Replay(Node):
         self._outlets = {
             topic: self._outlet(there[topic], target) for topic, target in targets.items()
         }
+        if next(raw_messages(bag, self._outlets, self._start), None) is None:
+            nothing = f'{bag}: nothing on {", ".join(self._outlets)} after {offset:g} s'
+            raise BagError(f'{nothing}; choose a smaller --start-offset.')
 
     def play(self, transport: Transport, loop: bool) -> None:
         """Publish the bag from the chosen moment to its end."""

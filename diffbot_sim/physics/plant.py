@@ -27,6 +27,7 @@ from diffbot_sim.physics.simulation import (
 from diffbot_sim.physics.stages import Traction
 from diffbot_sim.physics.state import State
 from diffbot_sim.physics.stepper import advance
+from diffbot_sim.physics.vector import SPEED_RIGHT
 
 
 class Plant:
@@ -48,18 +49,25 @@ class Plant:
     def place(self, start: State) -> None:
         """Put the robot somewhere else, free of forces; time goes on."""
         self._force = (0.0, 0.0)
+        self._coming = deque[tuple[float, tuple[float, float]]]()
         self._z = initial_vector(self._model, start)
         self._install(self._model)
 
     @property
     def model(self) -> Model:
-        """What is simulated; a new model takes over pose and speed, its effects start afresh."""
+        """What is simulated; a new model takes over pose and speed, its effects start afresh.
+
+        Forces on their way arrive all the same, unless the delay is another one.
+        """
         return self._model
 
     @model.setter
     def model(self, model: Model) -> None:
         if model.half_separation != self._model.half_separation:
-            self._z[5:] = initial_vector(model, State(0.0, 0.0, 0.0, *self.twist))[5:]
+            there = initial_vector(model, State(0.0, 0.0, 0.0, *self.twist))
+            self._z[SPEED_RIGHT:] = there[SPEED_RIGHT:]
+        if delay_of(model) != self._delay:
+            self._coming.clear()
         self._install(model)
 
     def step(self, force_right: float, force_left: float, duration: float) -> None:
@@ -136,7 +144,6 @@ class Plant:
         self._functions = compose(model.kinds)
         self._params = model.pack()
         self._delay, self._moments = delay_of(model), moments_of(model)
-        self._coming: deque[tuple[float, tuple[float, float]]] = deque()
         held = Traction(*self._force)
         self._states = np.array([s for e in model.effects for s in e.initial_state(held)])
         self._modes, self._work = workspace()

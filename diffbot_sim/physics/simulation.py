@@ -48,7 +48,7 @@ def simulate(
     Steps are at most max_step [s] long, cut at stamps and command changes.
     """
     functions = compose(model.kinds)
-    commands = scheduled(model, commands)
+    commands = scheduled(model, commands, float(times[0]))
     z = initial_vector(model, start or State())
     out = np.empty((len(times), OUTPUT_SIZE))
     _simulate(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from motion import commands, push, table
 
-from diffbot_sim.physics import Friction, Model, Plant, simulate
+from diffbot_sim.physics import Friction, Model, Plant, Robot, simulate
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
 from diffbot_sim.records import Commands
 
@@ -42,3 +42,26 @@ def test_live_robot_takes_commands_as_late():
 def test_command_that_is_held_for_ever_is_not_late():
     late = push(Model(effects=(ActuatorDelay(0.3),)), 5.0, 5.0, 2.0)
     np.testing.assert_array_equal(late.pose, push(Model(), 5.0, 5.0, 2.0).pose)
+
+
+def test_the_first_command_is_late_too_where_none_was_there_before():
+    stamps, first = np.arange(0.0, 2.0, 0.01), (0.5, 6.0, 6.0)
+    late = simulate(Model(effects=(ActuatorDelay(0.1),)), commands(first), stamps)
+    later = simulate(Model(), commands((0.6, 6.0, 6.0)), stamps)
+    np.testing.assert_array_equal(table(late), table(later))
+
+
+def test_forces_on_their_way_arrive_where_something_else_of_a_live_robot_changes():
+    plant = Plant(Model(friction=SMOOTH, effects=(ActuatorDelay(0.1),)))
+    plant.step(5.0, 5.0, 0.05)
+    plant.model = Model(Robot(mass=5.0), SMOOTH, (ActuatorDelay(0.1),))
+    plant.step(0.0, 0.0, 0.15)
+    assert plant.twist[0] == pytest.approx(0.05 * 2.0 * 5.0 / 5.0)
+
+
+def test_forces_on_their_way_are_dropped_with_another_delay():
+    plant = Plant(Model(friction=SMOOTH, effects=(ActuatorDelay(0.1),)))
+    plant.step(5.0, 5.0, 0.05)
+    plant.model = Model(friction=SMOOTH, effects=(ActuatorDelay(0.2),))
+    plant.step(0.0, 0.0, 0.3)
+    assert plant.twist[0] == 0.0

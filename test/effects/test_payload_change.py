@@ -3,7 +3,7 @@
 import numpy as np
 from motion import commands, drive, push
 
-from diffbot_sim.physics import Friction, Model, Plant, simulate
+from diffbot_sim.physics import Friction, Model, Plant, Robot, simulate
 from diffbot_sim.physics.effects.payload_change import PayloadChange
 
 SMOOTH = Friction('none')
@@ -15,6 +15,14 @@ def test_acceleration_changes_at_the_moment_whatever_the_step():
         run = push(model, 5.0, 5.0, 3.0, every=0.5, max_step=step)
         early, late = np.minimum(run.time, 1.2345), np.maximum(run.time - 1.2345, 0.0)
         np.testing.assert_allclose(run.twist[:, 0], early + late / 1.5, rtol=1e-9)
+
+
+def test_a_load_is_put_on_at_its_moment_before_any_command_comes():
+    model = Model(Robot(mass=5.0), SMOOTH, (PayloadChange(5.0, 0.0, 1.0023),))
+    run = drive(model, (2.0, 5.0, 5.0), until=3.0, every=0.5, max_step=0.3)
+    heavy = Model(Robot(mass=10.0), SMOOTH)
+    alike = drive(heavy, (2.0, 5.0, 5.0), until=3.0, every=0.5, max_step=0.3)
+    np.testing.assert_allclose(run.twist, alike.twist, rtol=1e-12)
 
 
 def test_friction_that_follows_the_weight_slows_down_as_before():

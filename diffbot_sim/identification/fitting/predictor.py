@@ -70,8 +70,9 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
     gains, shape (6,): see NO_GAIN.
     """
     count, model = len(stretch.time), embedded(model)
-    commands = scheduled(model, stretch.run.commands)
-    states = initial_states(model, commands, float(stretch.time[0]))
+    start = float(stretch.time[0])
+    commands = scheduled(model, stretch.run.commands, start)
+    states = initial_states(model, commands, start)
     out, snapshots = np.zeros((count, 6)), np.empty((count, snapshot_size(states)))
     counting = counted(stretch, gains)
     _predict(

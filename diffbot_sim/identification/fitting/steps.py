@@ -50,7 +50,8 @@ class Steps:
     def _taken(self, model: Model, by: Array) -> Array:
         """Return how steps end, shape (k, 4); there is none before the first sample."""
         stretch = self._stretch
-        commands, out = scheduled(model, stretch.run.commands), np.zeros((len(stretch.time), 4))
+        commands = scheduled(model, stretch.run.commands, float(stretch.time[0]))
+        out = np.zeros((len(stretch.time), 4))
         _take(
             *compose(model.kinds),
             model.pack(),

@@ -1,6 +1,7 @@
 """Figs. 8 and 9: the friction block alone, fed with a prescribed force and speed."""
 
 from functools import partial
+from math import inf
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -94,12 +95,12 @@ def generalized_claims(constants: Constants, series: Series) -> tuple[Claim, ...
 
 
 def _balance(source: str, force: Array, friction: Array) -> Claim:
-    gap = float(np.abs(force - friction).max())
+    gap = float(np.abs(force - friction).max(initial=0.0))
     return Claim(
         source,
         'at rest, friction balances a force below the limit',
         f'largest difference {gap:.1g} N',
-        gap == 0.0,
+        len(force) > 0 and gap == 0.0,
     )
 
 
@@ -108,8 +109,8 @@ def _opposition(source: str, series: Series) -> Claim:
     return Claim(
         source,
         'in motion, friction acts against it, whichever way the force points',
-        f'takes {power.min():.2g} W or more throughout',
-        bool((power > 0.0).all()),
+        f'takes {power.min(initial=inf):.2g} W or more throughout',
+        len(power) > 0 and bool((power > 0.0).all()),
     )
 
 
