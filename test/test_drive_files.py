@@ -70,6 +70,7 @@ def test_equal_moments_of_two_rates_have_equal_bits():
         ('{random: , rat: 50}', 'rat: unknown key. Known: rate, random, segments. Did you mean'),
         ('{random: , rate: 0}', ': rate: 0 is not valid; rate (rows of the table in a second)'),
         ('random: {mots: 1}', 'random.mots: unknown parameter. Known: duration, least, most'),
+        ('random: {on: 3}', 'random.True: unknown parameter. Known: duration, least, most'),
         ('random: {duration: long}', 'takes 0.1 to 10000 s'),
         ('random: {least: 11}', 'random.least: 11 exceeds random.most 10. Lower least or'),
         ('random: {shortest: 3}', 'random.shortest: 3 exceeds random.longest 2.4'),

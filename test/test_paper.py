@@ -50,6 +50,13 @@ def test_claims_fail_where_constants_contradict_the_text(section, name, value, f
     assert first_failure(replace(CONSTANTS, **{section: part})).startswith(fails)
 
 
+@pytest.mark.parametrize('name', ['mu_coulomb', 'mu_viscous'])
+def test_claims_about_friction_that_is_not_there_fail_and_no_more(name):
+    without = replace(CONSTANTS, friction=replace(CONSTANTS.friction, **{name: 0.0}))
+    claims = [claim for each in EVERY for claim in each.claims(without, each.run(without))]
+    assert 0 < sum(claim.holds for claim in claims) < len(claims)
+
+
 def test_static_friction_may_rise_until_it_exceeds_the_weaker_force():
     static = range_of(CONSTANTS, 'friction', 'mu_static')
     assert static.low < CONSTANTS.friction.mu_static < static.high

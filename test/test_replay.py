@@ -6,6 +6,7 @@ import subprocess
 import termios
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from signal import SIGINT
 from time import monotonic
@@ -20,6 +21,7 @@ from rosgraph_msgs.msg import Clock
 
 from diffbot_sim.bags import write_run
 from diffbot_sim.nodes.conversions import nanoseconds
+from diffbot_sim.nodes.targets import commands
 
 ODOM = ('--topics', 'odom')
 
@@ -56,6 +58,24 @@ def test_replay_starts_where_it_is_told(bag, robot, tmp_path):
 def test_a_start_beyond_the_end_is_refused(bag):
     line = refusal('replay', str(bag), '--start-offset', '2')
     assert 'lasts 1.0 s; choose a --start-offset below that' in line
+
+
+@pytest.mark.parametrize('words', [[], ['--loop']])
+def test_a_start_after_the_last_message_of_what_is_replayed_is_refused(tmp_path, words):
+    run, long = drive(), np.linspace(0.0, 5.0, 100)
+    write_run(tmp_path / 'bag', replace(run, odometry=replace(run.odometry, time=long)), START)
+    line = refusal('replay', str(tmp_path / 'bag'), '--start-offset', '3', *words)
+    assert 'nothing on /left_wheel/force, /right_wheel/force after 3 s; choose a smaller' in line
+
+
+def test_each_wheel_is_replayed_by_the_better_of_its_topics():
+    wheels = ('/a/left_wheel/force', '/a/left_wheel/force_cmd', '/a/right_wheel/force_cmd')
+    there = [*wheels, '/right_wheel/force', '/a/odom']
+    assert commands(there, Path('bag')) == {
+        '/right_wheel/force': 'right_wheel/force_cmd',
+        '/a/left_wheel/force': 'a/left_wheel/force_cmd',
+        '/a/right_wheel/force_cmd': 'a/right_wheel/force_cmd',
+    }
 
 
 @pytest.mark.parametrize('words', [['--start-offset', '-1'], ['--clock', '0'], ['--rate', 'x']])

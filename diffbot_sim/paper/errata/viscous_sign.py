@@ -12,13 +12,14 @@ from diffbot_sim.physics.state import State
 
 UNTIL, STEP = 3.0, 0.01
 BEYOND = 1.2  # of the speed at which the printed friction vanishes
+ANY = 1.0  # [m/s], where there is no such speed for want of viscous friction
 TIME, PRINTED, OURS = 't [s]', 'v by (13) as printed [m/s]', 'v by (13) put right [m/s]'
 
 
 def run(constants: Constants) -> Series:
     """Let the robot roll backwards, left alone, by both signs."""
     law = constants.friction.law()
-    start = -BEYOND * law.coulomb / law.viscous
+    start = -BEYOND * law.coulomb / law.viscous if law.viscous else -ANY
     right = drive(constants.model, (0.0, 0.0, 0.0), until=UNTIL, every=STEP, start=State(v=start))
     speed = np.full(len(right.time), start)
     for k, v in enumerate(speed[:-1]):  # explicit Euler is good enough to tell up from down
