@@ -97,7 +97,7 @@ def unexplained(with_pose: bool = True) -> Identification:
     knots = np.linspace(-np.pi, np.pi, 25)
     curve = 0.8 * np.sin(3.0 * knots)
     structure = Structure(
-        'a force along x that depends on the heading', 'v', 'heading', 'heading [°]', 0.57, 2e-9,
+        'a force along x that depends on the heading', 'v', 'heading', 'heading [rad]', 0.57, 2e-9,
         knots, curve, np.full_like(knots, 0.08),
     )  # fmt: skip
     return replace(found(with_pose=with_pose), verdict=UNEXPLAINED, unexplained=structure)

@@ -237,7 +237,7 @@ def test_answer_without_runs_or_candidates_can_be_told() -> None:
 @pytest.mark.parametrize(
     ('over', 'knots', 'drawn', 'scale'),
     [
-        ('heading [°]', np.radians([-180.0, 180.0]), [-180.0, 180.0], None),
+        ('heading [rad]', np.radians([-180.0, 180.0]), [-180.0, 180.0], None),
         ('rest [ln s]', np.log([0.2, 4.0]), [0.2, 4.0], 'log'),
         ('speed v [m/s]', np.array([-1.0, 1.0]), [-1.0, 1.0], None),
     ],

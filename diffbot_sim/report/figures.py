@@ -144,8 +144,8 @@ def structure_figure(structure: Structure) -> Figure:
 def _on_paper(structure: Structure) -> tuple[Array, Json]:
     """Return the knots of a curve, and their axis, as people read them: in degrees, in seconds."""
     label, knots = structure.over, structure.knots
-    if label.endswith('[°]'):
-        return np.degrees(knots), axis(label)
+    if label.endswith('[rad]'):
+        return np.degrees(knots), axis(label.replace('rad', '°'))
     if label.endswith('[ln s]'):
         return np.exp(knots), axis(label.replace('ln s', 's'), type='log', tickvals=SECONDS)
     return knots, axis(label)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 from diffbot_sim.identification.result import (
+    LAW,
     Candidate,
     Estimate,
     FoundEffect,
@@ -11,7 +12,9 @@ from diffbot_sim.identification.result import (
 )
 from diffbot_sim.parameters import Spec, specs
 from diffbot_sim.physics.effects import library
+from diffbot_sim.physics.friction import Friction
 from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.robot import Robot
 from diffbot_sim.report.errors import ratio
 from diffbot_sim.report.numerals import estimate_text, significant, unit_text
 from diffbot_sim.report.sentences import alternatives, p_text, why
@@ -105,14 +108,15 @@ def nominal_rows(result: Identification) -> list[ParameterRow]:
 
 
 def kept_rows(result: Identification) -> list[ParameterRow]:
-    """List the parameters of robot and friction that stayed as declared."""
-    fitted = {name.split('.')[-1] for name in (*result.nominal, *result.contradicted)}
-    parts = (result.declared.robot, result.declared.friction)
+    """List the parameters of robot and friction that stayed as declared, and are used."""
+    robot, friction = result.declared.robot, result.declared.friction
+    law = () if LAW in result.contradicted else specs(friction)
+    used = [spec for spec in law if spec.choices or spec.name in friction.active]
+    given = [(robot, spec) for spec in specs(robot)] + [(friction, spec) for spec in used]
     return [
-        ParameterRow(spec.name, spec.meaning, f'{getattr(part, spec.name)}{unit_text(spec.unit)}')
-        for part in parts
-        for spec in specs(part)
-        if spec.name not in fitted
+        ParameterRow(spec.name, spec.meaning, _as_declared(part, spec))
+        for part, spec in given
+        if spec.name not in result.nominal
     ]
 
 
@@ -143,8 +147,12 @@ def _effect_specs(name: str) -> tuple[Spec, ...]:
 def _nominal(model: Model, name: str, estimate: Estimate) -> ParameterRow:
     part = model.robot if hasattr(model.robot, name) else model.friction
     (spec,) = (spec for spec in specs(part) if spec.name == name)
-    declared = f'{getattr(part, name):g}{unit_text(spec.unit)}'
-    return ParameterRow(name, spec.meaning, estimate_text(estimate), declared)
+    return ParameterRow(name, spec.meaning, estimate_text(estimate), _as_declared(part, spec))
+
+
+def _as_declared(part: Robot | Friction, spec: Spec) -> str:
+    value = getattr(part, spec.name)
+    return value if spec.choices else f'{value:g}{unit_text(spec.unit)}'
 
 
 def _evidence(name: str, value: float) -> tuple[str, str]:

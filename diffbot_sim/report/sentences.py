@@ -20,6 +20,7 @@ from diffbot_sim.report.numerals import (
     significant,
     speed_text,
     turn_rate_text,
+    unit_text,
 )
 
 SPLITS = {
@@ -72,7 +73,9 @@ def _denied(result: Identification, name: str) -> str:
 def _recalibrated(was: Effect, now: Effect) -> str:
     values = zip(now.specs(), was.values, now.values, strict=True)
     changes = [
-        f'{spec.name} {significant(new)} for {significant(old)}' for spec, old, new in values
+        f'{spec.name} {significant(new)} for {significant(old)}{unit_text(spec.unit)}'
+        for spec, old, new in values
+        if new != old
     ]
     return f'{now.name}, which is declared, was recalibrated: {_listed(changes)}.'
 

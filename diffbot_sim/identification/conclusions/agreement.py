@@ -132,7 +132,8 @@ def disagreeing(
     """Return which runs disagree, after those known to: one by one, whose going helps the most.
 
     So a run that spoils what the others say does not make them look wrong, however little it says
-    itself. Of two that disagree with each other nobody can say which is wrong: both are returned.
+    itself. Where the last two disagree with each other nobody can say which is wrong: all are
+    returned.
     """
 
     def agreed(left: frozenset[int]) -> float:
@@ -152,14 +153,14 @@ def disagreeing(
     return everyone - left
 
 
-def chances(fit: Fit, own: Estimated, others: Estimated, runs: int) -> Array:
-    """Return the chance of so large a difference in each parameter, corrected for how many.
+def chances(fit: Fit, own: Estimated, others: Estimated, count: int) -> Array:
+    """Return the chance of so large a difference in each parameter, one of so many runs.
 
     Two tests must agree. Intervals are robust against serial correlation; but what hangs on a few
     events (a stop, a start) has too narrow ones, so the likelihood must fall too.
     """
-    fall = likelihood_chance(fit, others.u) * runs
-    return np.minimum(1.0, np.maximum(interval_chances(own, others) * runs * len(own.u), fall))
+    fall = likelihood_chance(fit, others.u) * count
+    return np.minimum(1.0, np.maximum(interval_chances(own, others) * count * len(own.u), fall))
 
 
 def interval_chances(own: Estimated, others: Estimated) -> Array:
@@ -177,17 +178,17 @@ def likelihood_chance(fit: Fit, u: Array) -> float:
     return float(stats.chi2.sf(max(loss, 0.0), len(u)))
 
 
-def _others(runs: int, index: int, aside: frozenset[int]) -> list[int]:
+def _others(count: int, index: int, aside: frozenset[int]) -> list[int]:
     """Return the other runs; those set aside are heard only where no other is left."""
-    others = set(range(runs)) - {index}
+    others = set(range(count)) - {index}
     return sorted(others - aside or others)
 
 
-def _check(fit: Fit, own: Estimated, others: Estimated, runs: int) -> RunCheck:
+def _check(fit: Fit, own: Estimated, others: Estimated, count: int) -> RunCheck:
     """Describe one run: its error with the parameters of the others, and what differs."""
     (stretch,) = fit.stretches
     predicted = run_free(fit.space.model(others.u), stretch).twist
-    chance = chances(fit, own, others, runs)
+    chance = chances(fit, own, others, count)
     here, there = (estimates_at(fit.space, *estimated) for estimated in (own, others))
     names = [coordinate.name for coordinate in fit.space.coordinates]
     differences = tuple(

@@ -37,9 +37,9 @@ class Fault:
 
 
 def _driven(run: Run, by: Array) -> Run:
-    """Return a run with other forces: a matrix of what is taken of the right, and left, one."""
+    """Return a run with other forces: by, shape (2, 2), times what was told of right and left."""
     given = run.commands
-    unsure = None if given.unsure is None else given.unsure @ np.abs(by.T)
+    unsure = None if given.unsure is None else given.unsure @ np.square(by.T)
     return replace(run, commands=Commands(given.time, given.force @ by.T, unsure))
 
 
@@ -55,6 +55,7 @@ FAULTS = (
         partial(_driven, by=EXCHANGED),
         (1,),
     ),
+    # That turns the sign of the sum of both, and leaves their difference as it is.
     Fault('the speed had the other sign', partial(_driven, by=-EXCHANGED), (0,)),
     Fault('both forces had the other sign', partial(_driven, by=-np.eye(2)), (0, 1)),
     Fault(

@@ -42,7 +42,7 @@ COMMANDED = {
     ),
     'force_steps': Variable(
         "each wheel's commanded force, as if it came in steps of {period:.3g} N",
-        'command over its step, as a phase [°]',
+        'command over its step, as a phase [rad]',
         Periodic(lambda view: 2.0 * np.pi * view.force, alone(force_rates), LOOKED_AT),
         ('wheels',),
         parts=EACH_WHEEL,
@@ -88,7 +88,7 @@ COMMANDED = {
     ),
     'gain_rhythm': Variable(
         'time, the same again every {period:.3g} s, in proportion to the commanded force',
-        'phase [°]',
+        'phase [rad]',
         Periodic(
             lambda view: 2.0 * np.pi * time_of_wheels(view),
             alone(gain_rates),

@@ -79,7 +79,7 @@ MOTION = {
         BODY,
     ),
     'heading': Variable(
-        'the heading', 'heading [°]', Periodic(lambda view: view.stretch.heading), BODY
+        'the heading', 'heading [rad]', Periodic(lambda view: view.stretch.heading), BODY
     ),
     'turned': Variable(
         'how far it has turned in all',
@@ -89,7 +89,7 @@ MOTION = {
     ),
     'friction_over_heading': Variable(
         'the heading, against the motion',
-        'heading [°]',
+        'heading [rad]',
         Periodic(lambda view: view.stretch.heading, weights=rolling),
         ('wheels',),
     ),
@@ -103,7 +103,7 @@ MOTION = {
     ),
     'rhythm': Variable(
         'time, the same again every {period:.3g} s',
-        'phase [°]',
+        'phase [rad]',
         Periodic(lambda view: 2.0 * np.pi * view.stretch.time, rhythms, LOOKED_AT),
         BODY,
     ),
@@ -151,14 +151,14 @@ MOTION = {
     ),
     'wheel_angle': Variable(
         "each wheel's angle, at order {rate:.3g}",
-        'angle of the wheel, times the order [°]',
+        'angle of the wheel, times the order [rad]',
         Periodic(lambda view: view.wheel_angle, alone(wheel_orders), LOOKED_AT),
         ('wheels',),
         parts=EACH_WHEEL,
     ),
     'friction_over_wheel_angle': Variable(
         "each wheel's angle, against the motion, at order {rate:.3g}",
-        'angle of the wheel, times the order [°]',
+        'angle of the wheel, times the order [rad]',
         Periodic(lambda view: view.wheel_angle, rubbing, LOOKED_AT, weights=rolling),
         ('wheels',),
         parts=EACH_WHEEL,
@@ -189,7 +189,7 @@ MOTION = {
     ),
     'caster': Variable(
         'where a caster would have swivelled to',
-        'rolling direction of a caster [°]',
+        'rolling direction of a caster [rad]',
         Caster(),
         ('wheels',),
     ),

@@ -2,8 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import isnan, nan
-from operator import itemgetter
+from math import inf, isnan, nan
 
 import numpy as np
 from scipy import stats
@@ -163,7 +162,7 @@ def held_out_gain(small: Fit, large: Fit, held_out: Sequence[Stretch]) -> tuple[
             for fit, stretches in zip((small, large), begun, strict=True)
         ]
         looks.append(block_gain(losses[0] - losses[1]))
-    gain, _ = min(looks, key=itemgetter(1))
+    gain, _ = min(looks, key=lambda look: inf if isnan(look[1]) else look[1])
     return gain, best_look(*(chance for _, chance in looks))
 
 

@@ -1,7 +1,7 @@
 """How sure an answer must be: the same for a name and for a force that has none."""
 
 from collections.abc import Iterable
-from math import inf, isnan, log
+from math import inf, isnan, log, nan
 
 import numpy as np
 from scipy import stats
@@ -55,8 +55,12 @@ def weight(chances: Iterable[float]) -> float:
 
 
 def best_look(*chances: float) -> float:
-    """Return the chance of the least of these chances: who looks often sees more."""
-    return float(1.0 - (1.0 - min(chances, default=1.0)) ** len(chances))
+    """Return the chance of the least of these chances: who looks often sees more.
+
+    Those that prove nothing (nan) are no looks; without any other it is nan.
+    """
+    told = [chance for chance in chances if not isnan(chance)]
+    return 1.0 - (1.0 - min(told)) ** len(told) if told else nan
 
 
 def elsewhere(held_out: float, parts: float) -> float:
