@@ -18,7 +18,7 @@ from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_predict
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import split
 from diffbot_sim.physics import Model
-from diffbot_sim.physics.effects import laws
+from diffbot_sim.physics.effects import sought_effects
 from diffbot_sim.records import Run
 
 # Free beside the robot and its friction, and truly zero.
@@ -57,7 +57,7 @@ def fitted(run: Run, known: Model) -> Fit:
     """Fit the numbers of a robot that is declared as it is."""
     stretches = split([run])[0]
     stretches = restarted(calibrate(Space(known, ()), stretches).model, stretches)
-    space = Space(known, tuple(kind for name, kind in laws().items() if name in FREE))
+    space = Space(known, tuple(kind for name, kind in sought_effects().items() if name in FREE))
     return fit_prediction(space, stretches, space.prior(), FIRST_GAINS)
 
 

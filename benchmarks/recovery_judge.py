@@ -16,7 +16,7 @@ from recovery_cases import Case, Row
 
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.result import ErrorNorm, Identification
-from diffbot_sim.physics.effects import laws
+from diffbot_sim.physics.effects import sought_effects
 from diffbot_sim.records import Run
 
 # What sensors make of a drive is made of odometry at this rate [Hz]; so often a controller hears.
@@ -30,7 +30,9 @@ def judge(case: Case) -> Row:
     begin = perf_counter()
     plant, planted = planted_in(case)
     run = recorded(case, plant)
-    kinds = [kind for n, kind in laws().items() if not (case.removed and n in case.effects)]
+    kinds = [
+        kind for n, kind in sought_effects().items() if not (case.removed and n in case.effects)
+    ]
     row = {'name': case.name, **asdict(case), 'planted': planted}
     try:
         found = identify([run], declared(MAKES[case.make], case.seed), kinds=kinds)

@@ -25,7 +25,7 @@ from diffbot_sim.errors import DataError, DiffbotError
 from diffbot_sim.parameters import Spec
 from diffbot_sim.physics import Friction, Model, Robot
 from diffbot_sim.physics.composition import compose
-from diffbot_sim.physics.effects import Effect, laws
+from diffbot_sim.physics.effects import Effect, sought_effects
 from diffbot_sim.physics.instant import Inputs
 from diffbot_sim.physics.stages import Motion, Stage
 from diffbot_sim.records import Array
@@ -107,7 +107,7 @@ class Structure:
 
 def force(model: Model, points: Points) -> Array:
     """Return the force that each side needs to go on as it goes [N], shape (n, 2)."""
-    evaluate = compose(model.kinds).laws
+    evaluate = compose(model.kinds).sought_effects
     params, b = model.pack(), model.robot.half_separation
     result = np.empty_like(points.speed)
     for row, (right, left) in enumerate(np.where(abs(points.speed) < STANDING, 0, points.speed)):
@@ -194,7 +194,9 @@ def _points(rows: Iterable[dict[str, str]]) -> Points:
 
 def candidates() -> tuple[type[Effect], ...]:
     """Return the effects that steady motion can show."""
-    return tuple(k for k in laws().values() if k.stage in STEADY and k.name not in UNSEEN)
+    return tuple(
+        k for k in sought_effects().values() if k.stage in STEADY and k.name not in UNSEEN
+    )
 
 
 def benchmark(points: dict[str, Points]) -> dict[str, Any]:

@@ -31,13 +31,13 @@ def main(argv: Sequence[str] | None = None, command: str | None = None) -> int:
     leaves with SystemExit(2).
     """
     words = [*([command] if command else []), *(sys.argv[1:] if argv is None else argv)]
-    _forgive()
+    _replace_unprintable()
     try:
         code = _run(words)
         if sys.stdout:  # which may be closed
             sys.stdout.flush()
     except BrokenPipeError:
-        return _hush()
+        return _drop_broken_pipe()
     except (DiffbotError, OSError) as problem:
         print('error:', ' '.join(str(problem).split()), file=sys.stderr)
         return 1
@@ -120,14 +120,14 @@ def _loaded(module: str) -> Any:
         explains.cancel()
 
 
-def _forgive() -> None:
+def _replace_unprintable() -> None:
     """Let terminals that lack a letter, such as ω, show a question mark in its place."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors='replace')
 
 
-def _hush() -> int:
+def _drop_broken_pipe() -> int:
     """Let go of a pipe that nobody reads, so that Python does not complain at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return 1

@@ -85,9 +85,9 @@ def respond(settings: LoopSettings, wanted: float) -> tuple[Array, Array, Array]
     rows = []
     for tick in range(round(SECONDS / TICK)):
         v = plant.twist[0]
-        turn = loop.turn(settings, rates, wheel_rates(v, plant.twist[1], robot), TICK)
-        rows.append((tick * TICK, v, turn.reference[0] * robot.wheel_radius))
-        plant.step(*turn.force, TICK)
+        output = loop.step(settings, rates, wheel_rates(v, plant.twist[1], robot), TICK)
+        rows.append((tick * TICK, v, output.reference[0] * robot.wheel_radius))
+        plant.step(*output.force, TICK)
     time, v, reference = np.array(rows).T
     return time, v, reference
 

@@ -3,8 +3,8 @@
 from math import cos, sin, tanh
 
 import numpy as np
+from rehearsal import random_forces
 
-from diffbot_sim.control.rehearsal import random_forces
 from diffbot_sim.records import Array, Odometry, Run
 
 STEP = 0.01  # [s]

@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from diffbot_sim.control.rehearsal import Surroundings, rehearse
+from rehearsal import Surroundings, rehearse
+
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, UNIT, Fit, fit_prediction
 from diffbot_sim.identification.free_forms.dependence import Dependence

@@ -20,7 +20,7 @@ from diffbot_sim.identification.result import (
     RunCheck,
     Structure,
 )
-from diffbot_sim.physics.effects import Effect, laws, library
+from diffbot_sim.physics.effects import Effect, library, sought_effects
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.robot import Robot
 from diffbot_sim.records import Array, Trajectory
@@ -137,7 +137,7 @@ def check(name: str, mass: float | None = None) -> RunCheck:
 
 def candidates(first: str) -> tuple[Candidate, ...]:
     """Return one trial of each effect, the first one successful; one has no number."""
-    names = sorted(laws(), key=lambda name: (name != first, name))
+    names = sorted(sought_effects(), key=lambda name: (name != first, name))
     scores = [812.4, 47.0, *np.linspace(6.0, -9.0, len(names) - 2)]
     outcomes = [
         'entered' if first else 'rejected',

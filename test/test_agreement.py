@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.conclusions.agreement import Estimated as Said
 from diffbot_sim.identification.conclusions.agreement import agreement, interval_chances
 from diffbot_sim.identification.fitting.coordinates import Space

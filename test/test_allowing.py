@@ -6,8 +6,8 @@ from functools import cache
 import identification_by_hand as by_hand
 import pytest
 from fits import SMOOTH, SURE, fitted
+from rehearsal import random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import random_forces, rehearse
 from diffbot_sim.identification.allowing import excuses, gives_back
 from diffbot_sim.identification.doubt import Doubted
 from diffbot_sim.identification.fitting.fit import Fit

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from fits import ROUGH, acted_otherwise, fitted
+from rehearsal import Surroundings
 
-from diffbot_sim.control.rehearsal import Surroundings
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.free_forms.bursts import bursts
 from diffbot_sim.identification.free_forms.near_rest import eased

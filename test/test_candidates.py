@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fits import SMOOTH, fitted
+from rehearsal import random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import random_forces, rehearse
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import GAIN_LIMITS
 from diffbot_sim.identification.selection.candidates import complete

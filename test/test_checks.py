@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.errors import DataError
 from diffbot_sim.identification.recordings.checks import check
 from diffbot_sim.identification.recordings.recordings import Recordings

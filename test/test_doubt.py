@@ -7,8 +7,8 @@ from math import inf, nan
 import numpy as np
 import pytest
 from fits import SURE, acted_otherwise
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.doubt import Seen, doubt
 from diffbot_sim.identification.fitting.coordinates import Space

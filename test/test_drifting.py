@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fits import fitted
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.free_forms.bases import bases
 from diffbot_sim.identification.free_forms.dependence import Dependence, explained_by

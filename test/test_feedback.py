@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 from fits import ROUGH, acted_otherwise
+from rehearsal import random_forces
 
-from diffbot_sim.control.rehearsal import random_forces
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
 from diffbot_sim.identification.recordings.stretches import split

@@ -7,8 +7,8 @@ import pytest
 from fits import without_pose
 from hypothesis import given
 from hypothesis import strategies as st
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.filtering import (

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import numpy as np
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.free_forms.floor import by_place, in_time
 from diffbot_sim.identification.recordings.stretches import whole
 from diffbot_sim.physics import Model

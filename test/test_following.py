@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fits import fitted
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.following import follows_nothing
 from diffbot_sim.identification.recordings.stretches import split

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from peer_recording import reckoned
+from rehearsal import Surroundings, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, rehearse
 from diffbot_sim.identification.recordings.gyro import bias_of, unbiased
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects import Effect

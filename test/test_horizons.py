@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.conclusions.comparison import compare_models, errors_of
 from diffbot_sim.identification.conclusions.horizons import _ends, horizons, state_at
 from diffbot_sim.identification.fitting.coordinates import Space

@@ -8,13 +8,13 @@ import pytest
 from peer_robots import MAKES, declared
 from recovery_cases import Case
 from recovery_judge import planted_in, recorded
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.errors import DataError
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.physics import Friction, Model, Robot
-from diffbot_sim.physics.effects import laws, library
+from diffbot_sim.physics.effects import library, sought_effects
 from diffbot_sim.physics.effects.actuator_fade import ActuatorFade
 from diffbot_sim.physics.effects.empirical_wheel_force import EmpiricalWheelForce
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
@@ -127,7 +127,7 @@ def test_two_effects_hidden_in_one_run_are_both_named() -> None:
 
 
 def test_effect_that_the_library_lacks_is_unexplained_and_its_variable_named() -> None:
-    others = [kind for name, kind in laws().items() if name != 'slope']
+    others = [kind for name, kind in sought_effects().items() if name != 'slope']
     result = identify([run_of(with_typical('slope'), 6)], DECLARED, kinds=others)
     assert result.verdict == 'unexplained'
     assert result.unexplained is not None
@@ -135,7 +135,7 @@ def test_effect_that_the_library_lacks_is_unexplained_and_its_variable_named() -
 
 
 def test_effect_that_only_resembles_what_acts_is_not_named() -> None:
-    others = [kind for name, kind in laws().items() if name != 'actuator_delay']
+    others = [kind for name, kind in sought_effects().items() if name != 'actuator_delay']
     result = identify([run_of(with_typical('actuator_delay'), 3)], DECLARED, kinds=others)
     assert result.effects == ()
     assert result.unexplained is not None
@@ -143,7 +143,7 @@ def test_effect_that_only_resembles_what_acts_is_not_named() -> None:
 
 
 def test_limit_that_does_not_fall_with_speed_is_not_named_for_what_makes_it_fall() -> None:
-    others = [kind for name, kind in laws().items() if name != 'actuator_saturation']
+    others = [kind for name, kind in sought_effects().items() if name != 'actuator_saturation']
     result = identify([run_of(with_typical('actuator_saturation'), 3)], DECLARED, kinds=others)
     assert result.verdict == 'unexplained'
 
@@ -192,7 +192,7 @@ def test_numbers_told_beside_a_table_of_what_is_left_are_those_of_the_model() ->
 
 
 def test_effect_is_named_beside_a_larger_one_that_the_library_lacks() -> None:
-    others = [kind for name, kind in laws().items() if name != 'wheel_ripple']
+    others = [kind for name, kind in sought_effects().items() if name != 'wheel_ripple']
     (small,) = with_typical('slope').effects
     result = identify(
         [run_of(with_typical('wheel_ripple').with_effect(small), 7)], DECLARED, kinds=others

@@ -24,10 +24,10 @@ def follow(settings, wanted, seconds):
     measured, asked = [], []
     for _ in range(round(seconds / DT)):
         rates = wheel_rates(*plant.twist, robot)
-        turn = loop.turn(settings, wheel_rates(*wanted, robot), rates, DT)
-        plant.step(*turn.force, DT)
+        output = loop.step(settings, wheel_rates(*wanted, robot), rates, DT)
+        plant.step(*output.force, DT)
         measured.append(plant.twist)
-        asked.append(np.mean(turn.reference) * robot.wheel_radius)
+        asked.append(np.mean(output.reference) * robot.wheel_radius)
     return np.array(measured), np.array(asked)
 
 
@@ -65,7 +65,7 @@ def test_without_friction_the_model_gives_newtons_law(v, omega, a, alpha):
 
 def test_a_reset_forgets_sums_and_references():
     settings, loop = LoopSettings(acceleration=LIMITED), InnerLoop()
-    first = loop.turn(settings, (5.0, 5.0), (0.0, 0.0), DT)
-    loop.turn(settings, (5.0, 5.0), (0.0, 0.0), 1.0)
+    first = loop.step(settings, (5.0, 5.0), (0.0, 0.0), DT)
+    loop.step(settings, (5.0, 5.0), (0.0, 0.0), 1.0)
     loop.reset()
-    assert loop.turn(settings, (5.0, 5.0), (0.0, 0.0), DT) == first
+    assert loop.step(settings, (5.0, 5.0), (0.0, 0.0), DT) == first

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fits import fitted, without_pose
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.older import Ages
 from diffbot_sim.identification.recordings.acting import acted_before

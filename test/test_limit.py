@@ -5,8 +5,8 @@ from functools import cache
 import numpy as np
 import pytest
 from fits import fitted
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.conclusions.empirical import term_in
 from diffbot_sim.identification.fitting.coordinates import Space, point_of

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fits import ROUGH, SMOOTH, acted_otherwise, fitted
+from rehearsal import Surroundings, random_forces
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.response import Response, responses
 from diffbot_sim.identification.fitting.views import View, views

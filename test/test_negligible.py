@@ -2,8 +2,8 @@
 
 import pytest
 from fits import SMOOTH, fitted, left_by
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.fitting.fit import whitened
 from diffbot_sim.identification.fitting.negligible import simulates_alike

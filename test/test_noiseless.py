@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from euler_robot import driven_by_euler
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.recordings.noiseless import (
     is_noiseless,

@@ -5,8 +5,8 @@ from itertools import count
 
 import numpy as np
 import pytest
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import Identification, identify
 from diffbot_sim.physics import Friction, Model, Robot
 from diffbot_sim.physics.effects import Effect

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fits import ROUGH, SMOOTH, acted_otherwise, fitted
+from rehearsal import Surroundings, random_forces
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.free_forms.oscillating import find_line, oscillating
 from diffbot_sim.records import Array

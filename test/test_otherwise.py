@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from fits import ROUGH, SMOOTH, acted_otherwise, fitted
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.free_forms.otherwise import excess_of, moves_otherwise
 from diffbot_sim.physics import Model

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from drives import ODOM, START, drive, messages, stamped
+from rehearsal import Surroundings, random_forces, rehearse
 
 from diffbot_sim.__main__ import main
 from diffbot_sim.bags import read_run, write_run
 from diffbot_sim.bags.folder import Message, write_bag
 from diffbot_sim.config import save_model
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.recordings.parts import between
 from diffbot_sim.physics import Model
 from diffbot_sim.records import Commands, Odometry, Run

@@ -40,7 +40,7 @@ def test_a_wrong_reference_for_a_moment_never_drives_a_robot_backwards(wrong, ti
     for tick in range(400):
         wanted = wrong if 100 <= tick < 100 + ticks else 0.3
         rates = (wheel_rates(v, 0.0, Robot()) for v in (wanted, plant.twist[0]))
-        plant.step(*loop.turn(LoopSettings(), *rates, DT).force, DT)
+        plant.step(*loop.step(LoopSettings(), *rates, DT).force, DT)
         speeds.append(plant.twist[0])
     assert min(speeds) >= 0.0
     assert speeds[-1] == pytest.approx(0.3, abs=0.01)

@@ -7,8 +7,8 @@ from fits import left_by
 from peer_drives import DRIVES
 from peer_recording import Recording, record
 from peer_robots import MAKES, exact
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.free_forms.dependence import Dependence
 from diffbot_sim.parameters import parameter

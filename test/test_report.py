@@ -16,7 +16,7 @@ from browser import browsed, needs_chromium
 from rich.console import Console
 
 from diffbot_sim.identification.result import Bias, ErrorNorm, Estimate, Identification, Timing
-from diffbot_sim.physics.effects import laws, library
+from diffbot_sim.physics.effects import library, sought_effects
 from diffbot_sim.physics.effects.effective_track import EffectiveTrack
 from diffbot_sim.physics.model import Model
 from diffbot_sim.report import figures, print_summary, sentences, write_report
@@ -220,7 +220,7 @@ def test_page_cannot_be_broken_by_a_name() -> None:
     assert '<script>alert' not in page
 
 
-@pytest.mark.parametrize('name', sorted(laws()))
+@pytest.mark.parametrize('name', sorted(sought_effects()))
 def test_every_effect_of_the_library_can_be_told(name: str) -> None:
     result = by_hand.found(name)
     assert library()[name].meaning[1:60] in by_hand.page(result).replace('&#39;', "'")

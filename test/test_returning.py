@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fits import acted_otherwise, fitted
+from rehearsal import Surroundings, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, rehearse
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.free_forms.bases import again, bases
 from diffbot_sim.identification.free_forms.dependence import Dependence, explained_by, realised

@@ -6,8 +6,8 @@ from functools import cache
 import identification_by_hand as by_hand
 import numpy as np
 from fits import SMOOTH, SURE, fitted
+from rehearsal import random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import random_forces, rehearse
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, fit_prediction
 from diffbot_sim.identification.found import Found

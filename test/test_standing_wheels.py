@@ -5,8 +5,8 @@ from math import cos, sin
 
 import numpy as np
 import pytest
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import Identification, identify
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag

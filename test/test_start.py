@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.recordings.start import start_of
 from diffbot_sim.identification.recordings.stretches import Stretch, whole
 from diffbot_sim.physics import Model, Robot

@@ -13,9 +13,9 @@ from peer_recording import Recording, record
 from peer_robots import MAKES, declared, exact
 from recovery_cases import Case
 from recovery_judge import planted_in, recorded
+from rehearsal import Surroundings, random_forces, rehearse
 from smoothed import driven_smoothly
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.free_forms.dependence import (

@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from drives import LEFT, ODOM, RIGHT, messages, stamped
+from rehearsal import Surroundings, random_forces, rehearse
 
 from diffbot_sim.bags import read_run
 from diffbot_sim.bags.folder import write_bag
 from diffbot_sim.bags.write import write_run
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.errors import BagError
 from diffbot_sim.physics import Model
 from diffbot_sim.records import Run

@@ -1,8 +1,8 @@
 """Estimates: values, intervals, and whether a bound stopped the fit."""
 
 import numpy as np
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.conclusions.uncertainty import (
     CHANCE,
     estimates,

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS
 from diffbot_sim.identification.fitting.predictor import NO_GAIN, predict
 from diffbot_sim.identification.recordings.stretches import thin, whole

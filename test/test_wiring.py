@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.wiring import fault_of

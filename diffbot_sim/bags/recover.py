@@ -9,7 +9,7 @@ from diffbot_sim.bags.copying import Saved, copy_messages
 from diffbot_sim.bags.folder import whole_or_not_at_all
 from diffbot_sim.bags.mending import BESIDE, mend
 from diffbot_sim.bags.packed import is_packed, unpacked
-from diffbot_sim.bags.storage import FORM, STORAGE, check_single, naming, opened
+from diffbot_sim.bags.storage import FORM, STORAGE, check_no_bags_below, naming, opened
 from diffbot_sim.errors import BagError
 
 
@@ -52,7 +52,7 @@ def _files(bag: Path) -> list[Path]:
     if not bag.exists():
         raise BagError(f'{bag}: there is no such bag.')
     with naming(bag):
-        check_single(bag)
+        check_no_bags_below(bag)
     found = [bag] if bag.is_file() else [file for file in bag.rglob('*') if file.is_file()]
     whole = [file for file in found if file.suffix in STORAGE]
     # A recorder compresses parts that are finished, and then removes them.

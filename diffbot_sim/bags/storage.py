@@ -81,8 +81,8 @@ def naming(bag: str | Path) -> Iterator[None]:
         raise BagError(f'{bag}: {error}') from error
 
 
-def check_single(path: Path) -> None:
-    """Raise BagError when a path is a folder of several bags, or of one: which, is to be said."""
+def check_no_bags_below(path: Path) -> None:
+    """Raise BagError where bags lie in folders below a path: which is meant has to be said."""
     bags = sorted(file.parent.name for file in path.glob(f'*/{METADATA}'))
     if bags:
         raise BagError(f'a folder of bags. Give each: {", ".join(bags)}.')
@@ -95,7 +95,7 @@ def check_place(path: Path) -> None:
     if path.is_file() and path.suffix not in STORAGE:
         raise BagError(f'compressed. {MEND}' if is_part(path) else f'not a bag. {FORM}')
     if path.is_dir() and not (path / METADATA).exists():
-        check_single(path)
+        check_no_bags_below(path)
         if any(is_part(file) for file in path.rglob('*')):
             raise BagError(f'no metadata.yaml: the recording was cut off. {MEND}')
         raise BagError(f'not a bag. {FORM}')

@@ -42,8 +42,8 @@ def read_bags(bags: Sequence[Path], options: Namespace) -> list[RecordedRun]:
 def check_out(out: Path, bags: Sequence[Path]) -> None:
     """Raise DiffbotError when results cannot be written to a folder, or would harm a bag."""
     for bag in bags:
-        folder = bag.parent if bag.is_file() else bag
-        if out.resolve() == folder.resolve():
+        place = bag.parent if bag.is_file() else bag
+        if out.resolve() == place.resolve():
             raise DiffbotError(f'{out}: holds the bag to read. Choose another folder for --out.')
     place = next(place for place in (out.resolve(), *out.resolve().parents) if place.exists())
     if not place.is_dir():

@@ -19,7 +19,7 @@ from diffbot_sim.commands._recordings import folder
 from diffbot_sim.config import save_model
 from diffbot_sim.errors import DiffbotError
 from diffbot_sim.physics import simulate
-from diffbot_sim.physics.effects import Effect, laws
+from diffbot_sim.physics.effects import Effect, sought_effects
 from diffbot_sim.physics.model import Model
 
 NOISE = {'linear': 0.004, 'angular': 0.008}  # of the odometry [m/s], [rad/s]
@@ -126,7 +126,7 @@ def hideable() -> list[type[Effect]]:
     """Return the effects whose sizes can be drawn one by one: no moments, periods and limits."""
     return [
         kind
-        for kind in laws().values()
+        for kind in sought_effects().values()
         if not kind.shape and not any(spec.reciprocal for spec in kind.specs())
     ]
 

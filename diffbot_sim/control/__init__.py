@@ -1,1 +1,1 @@
-"""The inner loop: from wanted motion to wheel forces. Knows no clock and no message."""
+"""From wanted motion to wheel forces, and motions worth wanting. Knows no clock and no message."""

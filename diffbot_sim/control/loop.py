@@ -35,15 +35,15 @@ class LoopSettings:
     friction: Friction = field(default=Friction())
 
 
-class Turn(NamedTuple):
-    """One turn of the loop, right and left: wanted wheel speeds [rad/s] and forces [N]."""
+class Output(NamedTuple):
+    """What the loop gives, right and left: wanted wheel speeds [rad/s] and forces [N]."""
 
     reference: Pair
     force: Pair
 
 
 class InnerLoop:
-    """Keeps what the loop must remember from one turn to the next."""
+    """Keeps what the loop must remember from one step to the next."""
 
     def __init__(self) -> None:
         self.reset()
@@ -53,10 +53,10 @@ class InnerLoop:
         self._integrals: Pair = (0.0, 0.0)
         self._twist: Pair | None = None
 
-    def turn(self, settings: LoopSettings, wanted: Pair, measured: Pair, dt: float) -> Turn:
+    def step(self, settings: LoopSettings, wanted: Pair, measured: Pair, dt: float) -> Output:
         """Return references and forces for wanted and measured wheel speeds [rad/s].
 
-        dt [s] has passed since the last turn.
+        dt [s] has passed since the last step.
         """
         robot, limits = settings.robot, settings.acceleration
         asked, now = _twist_of(wanted, robot), _twist_of(measured, robot)
@@ -71,7 +71,7 @@ class InnerLoop:
             for i in range(2)
         )
         self._integrals = sum_right, sum_left
-        return Turn(reference, (right, left))
+        return Output(reference, (right, left))
 
     def _in_advance(self, settings: LoopSettings, last: Pair, twist: Pair, dt: float) -> Pair:
         """Return the share of the model's forces [N] that is asked for.

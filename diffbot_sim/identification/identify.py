@@ -32,7 +32,7 @@ from diffbot_sim.identification.result import (
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import Progress, Trial
 from diffbot_sim.identification.simulating import for_simulation
-from diffbot_sim.physics.effects import Effect, laws
+from diffbot_sim.physics.effects import Effect, sought_effects
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Run
 
@@ -54,7 +54,7 @@ def identify(
     """
     given = Recordings(tuple(runs), tuple(validate)).each(filled)
     recordings = given.each(unbiased)
-    known = tuple(laws().values()) if kinds is None else tuple(kinds)
+    known = tuple(sought_effects().values()) if kinds is None else tuple(kinds)
     found, denied = searched(recordings, Question(declared, known, progress))
     if len(given.all) > 1:
         progress('holding the runs against each other')

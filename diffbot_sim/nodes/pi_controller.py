@@ -89,8 +89,8 @@ class PiController(Node):
         self._unanswered = None
         dt = self._advance(stamp)
         measured = wheel_rates(*conversions.twist_of(message), self._settings.robot)
-        turn = self._loop.turn(self._settings, self._wanted_rates(stamp), measured, dt)
-        self._publish(message, turn.force, turn.reference, measured)
+        output = self._loop.step(self._settings, self._wanted_rates(stamp), measured, dt)
+        self._publish(message, output.force, output.reference, measured)
 
     def _advance(self, stamp: int) -> float:
         """Return the time [s] since the last odometry; begin anew where time jumps back."""

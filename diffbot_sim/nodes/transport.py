@@ -28,13 +28,14 @@ class Transport:
         self._node, self._head = node, Playhead(rate)
         self._clock = node.create_publisher(Clock, '/clock', DEPTH) if clock else None
         self._pace = Pace(1.0 / clock if clock else SOON, monotonic())
-        self._pressed: Callable[[], str] = str
+        self._pressed: Callable[[], str] = _nothing
 
     @contextmanager
     def keyboard(self) -> Iterator[None]:
         """Obey the keyboard inside the block."""
         with pressed_keys() as self._pressed:
             yield
+        self._pressed = _nothing
 
     def start_at(self, stamp: int) -> None:
         """Jump to a recorded moment [ns]."""
@@ -67,6 +68,11 @@ class Transport:
     def _tell_time(self) -> None:
         if self._clock:
             self._clock.publish(conversions.clock(self._head.now))
+
+
+def _nothing() -> str:
+    """Press no key."""
+    return ''
 
 
 def spin(node: Node, seconds: float) -> None:

@@ -9,7 +9,7 @@ from diffbot_sim.control.pi import Gains
 from diffbot_sim.errors import ConfigError
 from diffbot_sim.physics import Friction, Model, Robot
 
-CHOSEN = files('diffbot_sim.paper') / 'constants.yaml'
+CONSTANTS_FILE = files('diffbot_sim.paper') / 'constants.yaml'
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ def load_constants(path: Path | None = None) -> Constants:
     Raises ConfigError for values that no robot has, for effects, and for another friction model.
     """
     if path is None:
-        with as_file(CHOSEN) as chosen:
+        with as_file(CONSTANTS_FILE) as chosen:
             return load_constants(chosen)
     model = load_model(path, '--constants')
     if model.effects:

@@ -9,7 +9,7 @@ from diffbot_sim.paper.catalogue import EXPERIMENTS
 from diffbot_sim.paper.constants import Constants
 
 # F_N is no choice of ours for Figs. 8 and 9.
-CHOSEN = {
+VARIED = {
     'robot': ('mass', 'inertia', 'wheel_separation', 'wheel_radius'),
     'friction': ('mu_static', 'mu_coulomb', 'mu_viscous', 'stribeck'),
     'gains': ('kp', 'ki'),
@@ -34,7 +34,7 @@ class Range:
 
 def sensitivity(constants: Constants) -> Iterator[Range]:
     """Vary each constant alone, up and down; the constants themselves must pass."""
-    for section, names in CHOSEN.items():
+    for section, names in VARIED.items():
         for name in names:
             yield range_of(constants, section, name)
 

@@ -8,7 +8,7 @@ import numpy as np
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from diffbot_sim.paper.catalogue import ERRATA
-from diffbot_sim.paper.constants import CHOSEN
+from diffbot_sim.paper.constants import CONSTANTS_FILE
 from diffbot_sim.paper.drawing import save_figures
 from diffbot_sim.paper.experiment import Claim, Experiment, Series
 from diffbot_sim.paper.sensitivity import Range
@@ -63,5 +63,5 @@ def page(outcomes: Sequence[Outcome], ranges: Sequence[Range], constants: Path |
         errata=[outcome for outcome in outcomes if outcome.is_erratum],
         ranges=ranges,
         folder=FOLDER,
-        constants=(constants or CHOSEN).read_text('utf-8'),
+        constants=(constants or CONSTANTS_FILE).read_text('utf-8'),
     )

@@ -132,11 +132,12 @@ def _settle_chain(links: tuple[_Link, ...], name: str) -> Any:
     """Return a function that writes the states reached after `at.elapsed` seconds."""
     if not any(link.update for link in links):
         return _unchanged
-    *_, (_, update, first, last, first_state, last_state) = links
-    name_here, state_count = f'{name}_settle_{len(links)}', last_state - first_state
-    before, settle_before = _chain(links[:-1], name), _settle_chain(links[:-1], name)
+    settle_before = _settle_chain(links[:-1], name)
+    _, update, first, last, first_state, last_state = links[-1]
     if update is None:
         return settle_before
+    name_here, state_count = f'{name}_settle_{len(links)}', last_state - first_state
+    before = _chain(links[:-1], name)
     own = _numbers(first, last, f'{name_here}_own')
     state = _numbers(first_state, last_state, f'{name_here}_state')
 

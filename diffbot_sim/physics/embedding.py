@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from diffbot_sim.physics.effects import Effect, laws
+from diffbot_sim.physics.effects import Effect, sought_effects
 from diffbot_sim.physics.model import Model
 
 
@@ -22,4 +22,4 @@ def embedded(model: Model) -> Model:
 
 @cache
 def _neutral() -> tuple[Effect, ...]:
-    return tuple(kind() for kind in laws().values())
+    return tuple(kind() for kind in sought_effects().values())

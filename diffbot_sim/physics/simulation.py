@@ -130,7 +130,7 @@ def initial_modes(
     contact.modes_of(z, evaluate(laws, params, states, at, inputs, 1.0, 1.0).dry_torque, modes)
 
 
-class Drive(NamedTuple):
+class HeldCommands(NamedTuple):
     """Commands as compiled code reads them: stamps [s], forces [N] (n, 2), longest step [s]."""
 
     time: Array
@@ -139,19 +139,19 @@ class Drive(NamedTuple):
 
 
 @compiled
-def command_at(drive: Drive, current: int, time: float) -> int:
+def command_at(commands: HeldCommands, current: int, time: float) -> int:
     """Return the index of the command in force at a time, counted on from an earlier one."""
-    while current + 1 < len(drive.time) and drive.time[current + 1] <= time:
+    while current + 1 < len(commands.time) and commands.time[current + 1] <= time:
         current += 1
     return current
 
 
 @compiled
-def inputs_of(drive: Drive, current: int, force: float, torque: float) -> Inputs:
+def inputs_of(commands: HeldCommands, current: int, force: float, torque: float) -> Inputs:
     """Return the inputs while a command is in force (-1: none yet) and the body is pushed."""
     if current < 0:
         return Inputs(0.0, 0.0, force, torque)
-    return Inputs(drive.force[current, 0], drive.force[current, 1], force, torque)
+    return Inputs(commands.force[current, 0], commands.force[current, 1], force, torque)
 
 
 @compiled
@@ -161,7 +161,7 @@ def advance_held(
     states: Array,
     z: Array,
     modes: Modes,
-    drive: Drive,
+    commands: HeldCommands,
     current: int,
     push: tuple[float, float],
     time: float,
@@ -173,17 +173,17 @@ def advance_held(
     push: a force [N] along x and a torque [N·m] that act on the body all the while.
     """
     while time < until:
-        current = command_at(drive, current, time)
+        current = command_at(commands, current, time)
         end = until
-        if current + 1 < len(drive.time):
-            end = min(until, drive.time[current + 1])
-        inputs = inputs_of(drive, current, push[0], push[1])
-        count = max(1, int(np.ceil((end - time) / drive.max_step - 1e-6)))
+        if current + 1 < len(commands.time):
+            end = min(until, commands.time[current + 1])
+        inputs = inputs_of(commands, current, push[0], push[1])
+        count = max(1, int(np.ceil((end - time) / commands.max_step - 1e-6)))
         step = (end - time) / count
         for i in range(count):
             advance(dynamics, params, states, z, modes, inputs, time + i * step, step, work)
         time = end
-    return command_at(drive, current, until)
+    return command_at(commands, current, until)
 
 
 @compiled
@@ -218,14 +218,14 @@ def _simulate(  # type: ignore[no-untyped-def]
     laws, settle, step, params, states, z, command_time, force, max_step, times, modes, work, out
 ) -> None:
     """Simulate from times[0] and fill a row of output at each stamp."""
-    dynamics, drive = Dynamics(laws, settle, step), Drive(command_time, force, max_step)
-    current, push = command_at(drive, -1, times[0]), (0.0, 0.0)
-    initial_modes(laws, params, states, z, modes, inputs_of(drive, current, 0.0, 0.0), times[0])
+    dynamics, commands = Dynamics(laws, settle, step), HeldCommands(command_time, force, max_step)
+    current, push = command_at(commands, -1, times[0]), (0.0, 0.0)
+    initial_modes(laws, params, states, z, modes, inputs_of(commands, current, 0.0, 0.0), times[0])
     for k, time in enumerate(times):
         if k > 0:
             begin = times[k - 1]
             current = advance_held(
-                dynamics, params, states, z, modes, drive, current, push, begin, time, work
+                dynamics, params, states, z, modes, commands, current, push, begin, time, work
             )
-        inputs = inputs_of(drive, current, 0.0, 0.0)
+        inputs = inputs_of(commands, current, 0.0, 0.0)
         observe(laws, params, states, z, modes, inputs, time, out[k])

@@ -12,7 +12,7 @@ FEWEST = 64
 
 
 def spectrum_figures(runs: tuple[Comparison, ...]) -> list[Figure]:
-    """Draw the spectra of force and torque of the longest run."""
+    """Draw the spectra of force and torque of the run with most samples."""
     run = max(runs, key=lambda run: len(run.time))
     way = np.concatenate([[0.0], np.cumsum(np.diff(run.time) * np.abs(run.twist[1:, 0]))])
     wanted = (

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from motion import frictions, numbers, push
+from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.control.rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS
 from diffbot_sim.identification.fitting.predictor import predict
 from diffbot_sim.identification.recordings.stretches import whole

@@ -26,7 +26,7 @@ from diffbot_sim.physics.instant import HALF_SEPARATION, INERTIA, MASS
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.simulation import (
-    Drive,
+    HeldCommands,
     advance_held,
     command_at,
     initial_modes,
@@ -133,9 +133,9 @@ def _predict(  # type: ignore[no-untyped-def]
     heading, way, gains, taken, weight, push, modes, work, out, snapshots
 ) -> None:  # fmt: skip
     """Fill out: innovation, corrected twist, disturbance; and a snapshot after each sample."""
-    dynamics, drive = Dynamics(laws, settle, step), Drive(command_time, force, max_step)
-    current = command_at(drive, -1, times[0])
-    initial_modes(laws, params, states, z, modes, inputs_of(drive, current, 0.0, 0.0), times[0])
+    dynamics, commands = Dynamics(laws, settle, step), HeldCommands(command_time, force, max_step)
+    current = command_at(commands, -1, times[0])
+    initial_modes(laws, params, states, z, modes, inputs_of(commands, current, 0.0, 0.0), times[0])
     pushing, turning = 0.0, 0.0
     of_v, of_omega = gains[:3], gains[3:]
     for k, time in enumerate(times):
@@ -143,7 +143,7 @@ def _predict(  # type: ignore[no-untyped-def]
             begin, acting = times[k - 1], (pushing + push[k - 1, 0], turning + push[k - 1, 1])
             interval, before = time - begin, way_of(params, z)
             current = advance_held(
-                dynamics, params, states, z, modes, drive, current, acting, begin, time, work
+                dynamics, params, states, z, modes, commands, current, acting, begin, time, work
             )
             v, omega = measured(params, means, z, before, interval)
             missed = twist[k, 0] - v, twist[k, 1] - omega

@@ -18,7 +18,7 @@ from diffbot_sim.physics.instant import HALF_SEPARATION
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.simulation import (
-    Drive,
+    HeldCommands,
     advance_held,
     command_at,
     workspace,
@@ -112,10 +112,10 @@ def _take(  # type: ignore[no-untyped-def]
     out,
 ) -> None:
     """Fill out: each step's end, the twist as measured and at that moment."""
-    dynamics, drive = Dynamics(laws, settle, step), Drive(command_time, force, max_step)
+    dynamics, commands = Dynamics(laws, settle, step), HeldCommands(command_time, force, max_step)
     b, current = params[HALF_SEPARATION], -1
     for k in range(1, len(times)):
-        current = command_at(drive, current, times[k - 1])
+        current = command_at(commands, current, times[k - 1])
         restore(snapshots[k - 1], z, modes, states)
         correct(z, modes, b, by[0], by[1])
         way, push = way_of(params, z), disturbance[k - 1]
@@ -125,7 +125,7 @@ def _take(  # type: ignore[no-untyped-def]
             states,
             z,
             modes,
-            drive,
+            commands,
             current,
             (push[0] + by[2], push[1] + by[3]),
             times[k - 1],

@@ -9,7 +9,7 @@ from diffbot_sim.physics.effects.effect import Effect, Excitation
 
 ENTRY_POINT_GROUP = 'diffbot_sim.effects'
 
-__all__ = ['Effect', 'Excitation', 'laws', 'library']
+__all__ = ['Effect', 'Excitation', 'library', 'sought_effects']
 
 
 @cache
@@ -28,6 +28,6 @@ def library() -> dict[str, type[Effect]]:
     return {kind.name: kind for kind in sorted(found, key=lambda kind: (kind.stage, kind.name))}
 
 
-def laws() -> dict[str, type[Effect]]:
+def sought_effects() -> dict[str, type[Effect]]:
     """Return the effects that identification may name, in the same order."""
     return {name: kind for name, kind in library().items() if kind.is_sought}

@@ -25,21 +25,13 @@ def between(low: float, high: float, share: float) -> float:
 @compiled
 def limit_at(share, points):  # type: ignore[no-untyped-def]
     """Return the limit at a share of the speed at the end."""
-    if share <= -1.0:
+    if share <= PLACES[0]:
         return points[0]
-    if share < -0.5:
-        return between(points[0], points[1], 2.0 * share + 2.0)
-    if share < 0.0:
-        return between(points[1], points[2], 2.0 * share + 1.0)
-    if share < 0.25:
-        return between(points[2], points[3], 4.0 * share)
-    if share < 0.5:
-        return between(points[3], points[4], 4.0 * share - 1.0)
-    if share < 0.75:
-        return between(points[4], points[5], 4.0 * share - 2.0)
-    if share < 1.0:
-        return between(points[5], points[6], 4.0 * share - 3.0)
-    return points[6]
+    for k in range(1, len(PLACES)):
+        if share < PLACES[k]:
+            part = (share - PLACES[k - 1]) / (PLACES[k] - PLACES[k - 1])
+            return between(points[k - 1], points[k], part)
+    return points[len(PLACES) - 1]
 
 
 @compiled
