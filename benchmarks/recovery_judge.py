@@ -30,9 +30,8 @@ def judge(case: Case) -> Row:
     begin = perf_counter()
     plant, planted = planted_in(case)
     run = recorded(case, plant)
-    kinds = [
-        kind for n, kind in sought_effects().items() if not (case.removed and n in case.effects)
-    ]
+    removed = case.effects if case.removed else ()
+    kinds = [kind for name, kind in sought_effects().items() if name not in removed]
     row = {'name': case.name, **asdict(case), 'planted': planted}
     try:
         found = identify([run], declared(MAKES[case.make], case.seed), kinds=kinds)

@@ -107,7 +107,7 @@ class Structure:
 
 def force(model: Model, points: Points) -> Array:
     """Return the force that each side needs to go on as it goes [N], shape (n, 2)."""
-    evaluate = compose(model.kinds).sought_effects
+    evaluate = compose(model.kinds).laws
     params, b = model.pack(), model.robot.half_separation
     result = np.empty_like(points.speed)
     for row, (right, left) in enumerate(np.where(abs(points.speed) < STANDING, 0, points.speed)):
@@ -194,9 +194,8 @@ def _points(rows: Iterable[dict[str, str]]) -> Points:
 
 def candidates() -> tuple[type[Effect], ...]:
     """Return the effects that steady motion can show."""
-    return tuple(
-        k for k in sought_effects().values() if k.stage in STEADY and k.name not in UNSEEN
-    )
+    sought = sought_effects().values()
+    return tuple(kind for kind in sought if kind.stage in STEADY and kind.name not in UNSEEN)
 
 
 def benchmark(points: dict[str, Points]) -> dict[str, Any]:

@@ -213,7 +213,7 @@ def test_means_are_beyond_doubt_before_anything_is_searched() -> None:
     seldom = Odometry(seen.time[::5], seen.twist[::5], seen.pose[::5])
     run = counted(replace(run, odometry=seldom), 1)
     base, _ = fitted(run)
-    (older,) = Ages(base, Recordings((run,), ())).beyond_doubt(LATENESS)
+    older = Ages(base, Recordings((run,), ())).beyond_doubt(LATENESS)
     assert older.what == 'twists'
 
 
@@ -221,7 +221,7 @@ def test_late_robot_does_not_make_means_beyond_doubt() -> None:
     late = driven(Model(effects=(ActuatorDelay(0.012),)))
     run = without_pose(late)
     base, _ = fitted(run)
-    assert not Ages(base, Recordings((run,), ())).beyond_doubt(LATENESS)
+    assert Ages(base, Recordings((run,), ())).beyond_doubt(LATENESS) is None
 
 
 def test_true_pose_lets_a_delay_within_an_interval_be_named() -> None:

@@ -53,15 +53,8 @@ def read_run(path: str | Path, topics: Topics | None = None) -> RecordedRun:
 
 
 def _recorded(name: str, series: Mapping[str, Series]) -> RecordedRun:
-    leapt = {role: tuple(leaps(item)) for role, item in series.items()}
-    notes = [note for role, item in series.items() for note in notes_on_clock(item, leapt[role])]
-    whole = without_broken(series['odom'])
-    if whole is not series['odom']:
-        notes.append('the poses hold NaN or infinity; used the twists alone')
-    series = {**series, 'odom': whole}
-    usable, by_header = _usable({role: unset(it, leapt[role]) for role, it in series.items()})
-    if not by_header:
-        notes.append('not all messages are stamped; used the times of receipt')
+    mended, clock_notes = _mended(series)
+    usable, stamp_notes = _usable(mended)
     forces = usable['left_force'], usable['right_force']
     stamps = np.union1d(*(force.stamp for force in forces))
     _check_overlap(stamps, usable['odom'].stamp)
@@ -70,30 +63,41 @@ def _recorded(name: str, series: Mapping[str, Series]) -> RecordedRun:
     start = int(min(stamps[0], odom.stamp[0]))
     run = Run(name, _commands(*forces, start), _odometry(odom, start))
     paused = pauses(usable)
-    notes += (*notes_on(usable, run, start, paused), *bounds, *suspicions(usable, run))
+    found = (*notes_on(usable, run, start, paused), *bounds, *suspicions(usable, run))
     spans = (map(float, _seconds(gap, start)) for gap in paused)
     unheard = tuple((begin, end) for begin, end in spans)
-    return RecordedRun(run, start, tuple(f'{name}: {note}' for note in notes), unheard)
+    notes = tuple(f'{name}: {note}' for note in (*clock_notes, *stamp_notes, *found))
+    return RecordedRun(run, start, notes, unheard)
 
 
-def _usable(series: Mapping[str, Series]) -> tuple[dict[str, Ordered], bool]:
-    """Return what each topic held, by one clock, and whether that is the one of the stamps.
+def _mended(series: Mapping[str, Series]) -> tuple[dict[str, Series], list[str]]:
+    """Return what topics held without stamps that leap and poses that are broken, and notes."""
+    leapt = {role: tuple(leaps(item)) for role, item in series.items()}
+    notes = [note for role, item in series.items() for note in notes_on_clock(item, leapt[role])]
+    whole = without_broken(series['odom'])
+    if whole is not series['odom']:
+        notes.append('the poses hold NaN or infinity; used the twists alone')
+    mended = {**series, 'odom': whole}
+    return {role: unset(item, leapt[role]) for role, item in mended.items()}, notes
+
+
+def _usable(series: Mapping[str, Series]) -> tuple[dict[str, Ordered], list[str]]:
+    """Return what each topic held, by one clock, and a note where that is not the stamps'.
 
     Times of receipt trail the stamps by an unknown delay: they serve for all or for none.
     """
-    by_header = all(item.has_stamps for item in series.values())
-    usable = {
-        role: ordered(item, item.stamped if by_header else item.received)
-        for role, item in series.items()
-    }
-    return usable, by_header
+    if all(item.has_stamps for item in series.values()):
+        return {role: ordered(item, item.stamped) for role, item in series.items()}, []
+    received = {role: ordered(item, item.received) for role, item in series.items()}
+    return received, ['not all messages are stamped; used the times of receipt']
 
 
 def _commands(left: Ordered, right: Ordered, start: int) -> Commands:
     """Return what both wheels were commanded, those that were lost among it."""
     wheels = with_lost(right), with_lost(left)
     stamps = np.union1d(*(wheel.stamp for wheel in wheels))
-    force, unsure = np.dstack([held(wheel, stamps) for wheel in wheels]).swapaxes(0, 1)
+    told = np.stack([held(wheel, stamps) for wheel in wheels], axis=-1)
+    force, unsure = told[:, 0], told[:, 1]
     return Commands(_seconds(stamps, start), force, unsure if unsure.any() else None)
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, replace
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from diffbot_sim.identification.conclusions.advice import advice
 from diffbot_sim.identification.conclusions.agreement import agreement
@@ -11,6 +11,7 @@ from diffbot_sim.identification.conclusions.empirical import term_in, with_term
 from diffbot_sim.identification.conclusions.horizons import horizons
 from diffbot_sim.identification.conclusions.uncertainty import estimates
 from diffbot_sim.identification.finding import Question
+from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.following import follows_nothing
 from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.questioning import searched
@@ -28,6 +29,7 @@ from diffbot_sim.identification.result import (
     FoundEffect,
     Identification,
     Structure,
+    Table,
 )
 from diffbot_sim.identification.selection.stepwise import Selection
 from diffbot_sim.identification.selection.trials import Progress, Trial
@@ -37,6 +39,14 @@ from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Run
 
 Value = TypeVar('Value')
+
+
+class _Simulated(NamedTuple):
+    """The fit that is simulated, what it leaves without a name, and the table that is of that."""
+
+    fit: Fit
+    unexplained: Structure | None
+    table: Table | None
 
 
 def identify(
@@ -69,10 +79,7 @@ def identify(
 def _concluded(found: Found, declared: Model) -> Identification:
     """Return the answer that follows from what was found."""
     selection, held_out = found.selection, found.held_out
-    final = for_simulation(found)
-    unexplained = found.unexplained or follows_nothing(final, held_out)
-    closed = unexplained and with_term(final, unexplained, held_out)
-    final = closed or final
+    final, unexplained, table = _simulated(found)
     # Beside friction near rest effects were held where the prediction has them.
     known = estimates(selection.final if found.near_rest else final)
     # Whatever gave the parameters, the noise model that the disturbances call for watches them.
@@ -96,12 +103,22 @@ def _concluded(found: Found, declared: Model) -> Identification:
         comparisons=comparisons,
         # Where no effect was tried the recording is at fault, and no other drive would help.
         advice=advice(selection, known) if selection.trials else (),
-        empirical=term_in(final.model, unexplained) if closed and unexplained else None,
+        empirical=table,
         horizons=horizons(models, watched, held_out, errors),
         runs=agreement(selection.final, found.recordings.all, found.aside),
         near_rest=found.near_rest,
         added_noise=noise if found.noisy else None,
     )
+
+
+def _simulated(found: Found) -> _Simulated:
+    """Choose the fit that is simulated, with a table of what has no name where that is better."""
+    fit, held_out = for_simulation(found), found.held_out
+    left = found.unexplained or follows_nothing(fit, held_out)
+    closed = None if left is None else with_term(fit, left, held_out)
+    if left is None or closed is None:
+        return _Simulated(fit, left, None)
+    return _Simulated(closed, left, term_in(closed.model, left))
 
 
 def _verdict(selection: Selection, unexplained: Structure | None) -> str:

@@ -91,13 +91,12 @@ class Ages:
         }
         return sorted(told, key=told.__getitem__, reverse=True)
 
-    def beyond_doubt(self, kinds: Sequence[type[Effect]]) -> list[Older]:
+    def beyond_doubt(self, kinds: Sequence[type[Effect]]) -> Older | None:
         """What is the likeliest to be older, if that explains far more than a late robot does."""
-        return [
-            older
-            for older in self.likely[:1]
-            if is_beyond_doubt(older, self._again[older], self._recordings, kinds)
-        ]
+        for older in self.likely[:1]:
+            if is_beyond_doubt(older, self._again[older], self._recordings, kinds):
+                return older
+        return None
 
     def timely(self, older: Older) -> Fit:
         """Return the structure that was found on older twists, less what makes a robot late.

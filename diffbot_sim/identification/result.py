@@ -21,6 +21,8 @@ UNEXPLAINED = 'unexplained'
 LAW = 'friction.model'
 # The variable of a structure that is a limit of the wheels' force over their speed.
 LIMIT = 'limit'
+# The variable of a structure that is a hill or a hollow of the floor.
+ROUND_HILL = 'round_hill'
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,5 @@
 """The search again, where twists or forces prove to be of other moments than their stamps."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
@@ -39,38 +38,47 @@ def timed(recordings: Recordings, question: Question) -> Found:
     often nothing else needs to be.
     """
     begun = begun_with(recordings.each(timely), question)
-    known = dict[Older, Found]()
-
-    def taken(older: Older) -> Found:
-        if older not in known:
-            question.progress(f'taking {older.what} for means since the sample before')
-            known[older] = found_in(begun.recordings.each(older.taken), question)
-        return known[older]
-
-    for older in Ages(begun.base, begun.recordings).beyond_doubt(question.kinds):
-        final = taken(older).selection.final
+    taken = _Taken(begun.recordings, question)
+    older = Ages(begun.base, begun.recordings).beyond_doubt(question.kinds)
+    if older is not None:
+        final = taken.as_older(older).selection.final
         if is_beyond_doubt(older, final, begun.recordings, question.kinds):
-            return taken(older)
+            return taken.as_older(older)
     tried = tried_first(begun, question)
     filtered = _filtered_beyond_doubt(begun, tried, question)
     return filtered or _held_against_older(found_from(begun, tried, question), taken, question)
 
 
-def _held_against_older(
-    found: Found, taken: Callable[[Older], Found], question: Question
-) -> Found:
+class _Taken:
+    """What is found in twists that are taken as older: searched when it is asked for, and once."""
+
+    def __init__(self, recordings: Recordings, question: Question) -> None:
+        self._recordings, self._question = recordings, question
+        self._found = dict[Older, Found]()
+
+    def as_older(self, older: Older) -> Found:
+        """Return what is found where this of the twists is older than its stamps."""
+        if older not in self._found:
+            self._question.progress(f'taking {older.what} for means since the sample before')
+            taken = self._recordings.each(older.taken)
+            self._found[older] = found_in(taken, self._question)
+        return self._found[older]
+
+
+def _held_against_older(found: Found, taken: _Taken, question: Question) -> Found:
     """Hold what was found against searches in twists that are older, or went through a filter."""
     # Doubt may have withdrawn a name for what late twists left beside it.
     first = found.undoubted.final
     ages = Ages(first, found.recordings)
     unexplained = 0.0 if found.unexplained is None else found.unexplained.worth
     for older in ages.likely if found.says_something else ():
-        ends = (taken(older).undoubted.final, ages.timely(older))
+        other = taken.as_older(older)
+        ends = (other.undoubted.final, ages.timely(older))
         if any(is_taken(older, first, end, unexplained) for end in ends):
-            return taken(older)
+            return other
         lead = max(lead_of_means(older, first, end, unexplained) for end in ends)
         if lead > 0.0:
-            return _taken_as_led(taken(older).recordings, lead, question)
+            return _taken_as_led(other.recordings, lead, question)
     return replace(_unfiltered(found, question), undecided=ages.is_undecided)
 
 

@@ -41,8 +41,10 @@ def for_simulation(found: Found) -> Fit:
         return found.recalibrated
     if found.unexplained:
         return _simulating(final.space, plain, final.u) or final
+    if found.near_rest <= 0.0:
+        return final
     nominal = Space(final.model, ())
-    return (found.near_rest and _simulating(nominal, plain, nominal.prior())) or final
+    return _simulating(nominal, plain, nominal.prior()) or final
 
 
 def _simulating(space: Space, stretches: tuple[Stretch, ...], predicted: Array) -> Fit | None:

@@ -22,13 +22,12 @@ from diffbot_sim.nodes.parameters import Live, build, table
 from diffbot_sim.nodes.running import overrides, parse, parser, run
 from diffbot_sim.nodes.settings import STORAGES, RecorderSettings
 from diffbot_sim.nodes.timing import steady_clock
-from diffbot_sim.records import NANOSECONDS
+from diffbot_sim.records import NANOSECONDS, SIDES
 
 WRENCH = 'geometry_msgs/msg/WrenchStamped'
 # Types of our own topics, to listen before anyone speaks; those of others are asked for.
 KNOWN = {
-    **{f'{s}_wheel/{n}': WRENCH for s in ('left', 'right') for n in ('force', 'force_cmd')},
-    **{f'{s}_wheel/friction': WRENCH for s in ('left', 'right')},
+    **{f'{s}_wheel/{n}': WRENCH for s in SIDES for n in ('force', 'force_cmd', 'friction')},
     'odom': 'nav_msgs/msg/Odometry',
     'joint_states': 'sensor_msgs/msg/JointState',
 }

@@ -15,6 +15,7 @@ from diffbot_sim.physics.kinematics import wheel_speeds
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.runge_kutta import WORK_ROWS
 from diffbot_sim.physics.schedule import scheduled
+from diffbot_sim.physics.snapshot import CONTACTS
 from diffbot_sim.physics.stages import Traction
 from diffbot_sim.physics.state import State
 from diffbot_sim.physics.stepper import advance, update_contacts
@@ -29,6 +30,8 @@ from diffbot_sim.physics.vector import (
 )
 from diffbot_sim.records import Array, Commands, Trajectory
 
+# Steps are at most so long [s] unless asked otherwise.
+LONGEST_STEP = 5e-3
 # Where things begin in a row of output: the state z, and what follows from it, in pairs.
 POSE, WHEEL_ANGLE, WHEEL_SPEED = X, ANGLE_RIGHT, SPEED_RIGHT
 TWIST, TRACTION, FRICTION, OUTPUT_SIZE = range(STATE_SIZE, STATE_SIZE + 8, 2)
@@ -39,7 +42,7 @@ def simulate(
     commands: Commands,
     times: Array,
     start: State | None = None,
-    max_step: float = 5e-3,
+    max_step: float = LONGEST_STEP,
 ) -> Trajectory:
     """Return the free-running motion at the given stamps.
 
@@ -76,7 +79,7 @@ def simulate(
 
 def workspace() -> tuple[Modes, Array]:
     """Return the modes of the contacts, and rows that the stepper works in."""
-    return np.ones(3, np.int64), np.empty((WORK_ROWS, STATE_SIZE))
+    return np.ones(CONTACTS, np.int64), np.empty((WORK_ROWS, STATE_SIZE))
 
 
 def initial_vector(model: Model, start: State) -> Array:

@@ -13,6 +13,11 @@ def snapshot_size(states: Array) -> int:
     return STATE_SIZE + CONTACTS + len(states)
 
 
+def states_in(snapshots: Array) -> int:
+    """Return how many effect states each of these rows, shape (k, n), holds."""
+    return int(snapshots.shape[1]) - STATE_SIZE - CONTACTS
+
+
 @compiled
 def keep(z: Array, modes: Modes, states: Array, row: Array) -> None:
     """Write a snapshot into a row."""

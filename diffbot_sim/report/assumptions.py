@@ -7,6 +7,7 @@ from diffbot_sim.identification.recordings import stretches
 from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.identification.statistics import guards
+from diffbot_sim.physics.effects.slope import STANDARD_GRAVITY
 from diffbot_sim.report.numerals import significant
 from diffbot_sim.report.remarks import remarks
 from diffbot_sim.report.sentences import split
@@ -54,7 +55,7 @@ def _errors(result: Identification) -> list[str]:
         'The noise floor is the error that a perfect model would still have: '
         'measurement noise, taken as white, or the steps of a coarse encoder.',
         'Intervals are 95 % intervals, each for its parameter alone; at a bound they mean little.',
-        'Gravity is 9.80665 m/s².',
+        f'Gravity is {STANDARD_GRAVITY} m/s².',
     ]
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from diffbot_sim.identification.result import Comparison, Identification
+from diffbot_sim.identification.result import ROUND_HILL, Comparison, Identification
 from diffbot_sim.records import Array
 from diffbot_sim.report.drawing import COLOURS, Figure, Json, column, line, plane, thinned
 
@@ -19,7 +19,7 @@ def floor_figures(result: Identification) -> list[Figure]:
     seen = [(run, run.pose) for run in result.comparisons if run.pose is not None]
     if left is None or left.spot is None or not seen:
         return []
-    if left.variable == 'round_hill':
+    if left.variable == ROUND_HILL:
         meaning, senses = 'away from the middle', [_outward(pose, left.spot) for _, pose in seen]
     else:
         meaning, senses = 'in the sense of the motion', [_forward(run) for run, _ in seen]

@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.predictor import predict
-from diffbot_sim.identification.recordings.free_running import SIMULATION_STEP
 from diffbot_sim.identification.recordings.measurement import simulated
 from diffbot_sim.identification.recordings.start import WINDOW
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Errors, Horizon
 from diffbot_sim.identification.statistics.norms import norm
 from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.simulation import LONGEST_STEP
 from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array
 
@@ -89,7 +89,7 @@ def _errors(models: Sequence[Model], final: Fit, stretch: Stretch, spacing: floa
         # What is told at an end may be a mean since the sample before.
         stamps = np.unique([moment, *(ends - 1), *ends])
         for column, model in enumerate(models):
-            run = simulated(model, stretch, time[stamps], start, SIMULATION_STEP)
+            run = simulated(model, stretch, time[stamps], start, LONGEST_STEP)
             at_ends = run.twist[np.searchsorted(stamps, ends)]
             errors[row, column, told] = stretch.twist[ends] - at_ends
     return errors

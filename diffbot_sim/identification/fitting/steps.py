@@ -23,7 +23,7 @@ from diffbot_sim.physics.simulation import (
     command_at,
     workspace,
 )
-from diffbot_sim.physics.snapshot import restore
+from diffbot_sim.physics.snapshot import restore, states_in
 from diffbot_sim.physics.vector import STATE_SIZE, twist_of, way_of
 from diffbot_sim.records import Array
 
@@ -81,8 +81,7 @@ class Steps:
 def _place(prediction: Prediction) -> tuple[Array, Array, Modes, Array]:
     """Return what a step is taken in: z, effect states, modes and workspace."""
     modes, work = workspace()
-    states = prediction.snapshots.shape[1] - STATE_SIZE - len(modes)
-    return np.empty(STATE_SIZE), np.empty(states), modes, work
+    return np.empty(STATE_SIZE), np.empty(states_in(prediction.snapshots)), modes, work
 
 
 @entry(

@@ -12,6 +12,7 @@ from diffbot_sim.identification.free_forms.quantities import (
 )
 from diffbot_sim.identification.free_forms.round_hill import RoundHill
 from diffbot_sim.identification.free_forms.variable import Variable
+from diffbot_sim.identification.result import ROUND_HILL
 
 A_PATCH = 'within {grid[2]:.2g} m of x = {grid[0]:.2g} m, y = {grid[1]:.2g} m'
 PLACES = {
@@ -29,7 +30,7 @@ PLACES = {
         ('v',),
         by_place,
     ),
-    'round_hill': Variable(
+    ROUND_HILL: Variable(
         f'where it is, like the pull of a hill or a hollow {A_PATCH}',
         'distance from the middle of the hill or hollow [m]',
         RoundHill(),

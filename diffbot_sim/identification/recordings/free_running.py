@@ -9,18 +9,17 @@ from diffbot_sim.identification.recordings.start import start_of
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.norms import rms_of_each
 from diffbot_sim.physics.model import Model
+from diffbot_sim.physics.simulation import LONGEST_STEP
 from diffbot_sim.records import Array, Trajectory
 
-# Longest integration step of what is told in the end [s], as `simulate` has it.
-SIMULATION_STEP = 0.005
 # An error [m/s, rad/s] as good as none, as of the yaw rate of what cannot turn.
 NOTHING = 1e-9
 
 
 def run_free(model: Model, stretch: Stretch) -> Trajectory:
     """Simulate a stretch from its first state with the recorded forces alone."""
-    start = start_of(model, stretch, SIMULATION_STEP)
-    return simulated(model, stretch, stretch.time, start, SIMULATION_STEP)
+    start = start_of(model, stretch, LONGEST_STEP)
+    return simulated(model, stretch, stretch.time, start, LONGEST_STEP)
 
 
 def free_running_error(model: Model, held_out: Sequence[Stretch]) -> Array:
