@@ -172,8 +172,8 @@ def test_differences_of_encoders_do_not_make_a_robot_late(known: Callable[[Run],
     assert [it.lateness for it in answer.timings] == pytest.approx([0.01])
 
 
-def test_means_over_the_steps_of_a_simulator_do_not_make_a_robot_late() -> None:
-    half_a_step = 5e-4
+@pytest.mark.parametrize('half_a_step', [5e-4, 2e-3])
+def test_means_over_the_steps_of_a_simulator_do_not_make_a_robot_late(half_a_step: float) -> None:
     run = acted_before(counted(driven(Model()), 1), -half_a_step)
     answer = identify([run], Model(), kinds=LATENESS)
     assert answer.verdict == 'nothing_missing'

@@ -43,6 +43,8 @@ FAR = 100.0
 # Beside a force that has no name, less than this share of its worth decides nothing; nor does less
 # than all of it where a robot is late by half an interval, as means are, but for this share.
 DECIDING_SHARE, AS_MEANS = 0.05, 0.1
+# Of a simulator that makes only two steps in an interval means are late by half of that.
+HALF_A_STEP = 0.5
 
 
 class Older(NamedTuple):
@@ -152,13 +154,16 @@ def lead_of_means(older: Older, first: Fit, second: Fit, unexplained: float) -> 
 
     Those over the steps of a simulator are so by half a step: as if forces acted that much before
     their stamps. With these the second fit, which takes twists as means, must be as good as the
-    first, of a robot that is late.
+    first, of a robot that is late; with steps that are not short, clearly better.
     """
-    lead = _half_interval(first) - (_lateness(first) - _lateness(second))
-    if lead <= 0.0 or not (_is_simpler(first, second) and _is_of_means(first, second)):
+    half = _half_interval(first)
+    lead = half - (_lateness(first) - _lateness(second))
+    if not (0.0 < lead <= HALF_A_STEP * half and _is_simpler(first, second)):
         return 0.0
     worth = older.together(first, led_by(second, lead)) - log(second.whitened.size)
-    return lead if worth > _as_good(first, second, unexplained) else 0.0
+    short = _is_of_means(first, second)
+    enough = _as_good(first, second, unexplained) if short else VERY_STRONG
+    return lead if worth > enough else 0.0
 
 
 def _is_simpler(first: Fit, second: Fit) -> bool:
