@@ -14,7 +14,7 @@ def allowing_friction(found: Found) -> Found:
     form of that friction.
     """
     eased = _eased(found)
-    if eased is None:
+    if eased is None or _excuses_nothing(eased, found):
         return found
     doubted = doubt(eased, with_friction_eased)
     tells_more = excuses(doubted, found) or gives_back(doubted, found)
@@ -33,6 +33,11 @@ def _eased(found: Found) -> Seen | None:
     return seen if seen.strict else None
 
 
+def _excuses_nothing(eased: Seen, found: Found) -> bool:
+    """Say whether doubt need not be asked: without names it leaves what is allowed for as it is."""
+    return not eased.selection.support and eased.near_rest <= _least(found)
+
+
 def excuses(doubted: Doubted, found: Found) -> bool:
     """Say whether what was unexplained is friction near rest.
 
@@ -41,8 +46,7 @@ def excuses(doubted: Doubted, found: Found) -> bool:
     """
     support = doubted.selection.support
     only_then = sum(support[name].delta_bic for name in support.keys() - found.names)
-    least = max(SUSPICIOUS, _worth(found) - only_then)
-    return doubted.unexplained is None and doubted.near_rest > least
+    return doubted.unexplained is None and doubted.near_rest > _least(found, only_then)
 
 
 def gives_back(doubted: Doubted, found: Found) -> bool:
@@ -54,6 +58,14 @@ def gives_back(doubted: Doubted, found: Found) -> bool:
     stand, left = doubted.selection.support.keys(), doubted.unexplained
     less = left is not None and left.worth < _worth(found)
     return less and stand > found.names and doubted.near_rest > SUSPICIOUS
+
+
+def _least(found: Found, only_then: float = 0.0) -> float:
+    """Return by how much what is allowed for must lower the deviance to excuse anything.
+
+    only_then: worth of names that stand only beside it.
+    """
+    return max(SUSPICIOUS, _worth(found) - only_then)
 
 
 def _worth(found: Found) -> float:
