@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from rehearsal import Surroundings, random_forces, rehearse
 
-from diffbot_sim.identification.fitting.coordinates import Space
+from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
 from diffbot_sim.identification.fitting.shaking import shaken
 from diffbot_sim.identification.recordings.stretches import split
 from diffbot_sim.physics import Friction, Model
+from diffbot_sim.physics.effects.payload_change import PayloadChange
 
 STATIC = 0.0616
 
@@ -38,3 +39,15 @@ def test_fits_from_either_side_agree_once_shaken(from_either_side: list[Fit]) ->
 def test_fit_in_the_lowest_minimum_stays_there(from_either_side: list[Fit]) -> None:
     lowest = shaken(from_either_side[0])
     assert shaken(lowest) is lowest
+
+
+@pytest.mark.parametrize('seed', [3, 6])
+def test_a_moment_comes_out_of_the_hollows_beside_it(seed: int) -> None:
+    load, late = (PayloadChange(6.0, 0.2, moment) for moment in (25.3, 27.3))
+    loaded, around = Model(effects=(load,)), Surroundings(roughness=0.6)
+    run = rehearse(loaded, random_forces(seed, 60.0, -6.0, 9.0), around, seed)
+    learned, _ = split([run])
+    space = Space(Model(), (PayloadChange,))
+    start = np.append(Space(Model(), ()).prior(), point_of(PayloadChange, late.values))
+    (found,) = shaken(fit_prediction(space, learned, start, FIRST_GAINS)).model.effects
+    assert found.values[2] == pytest.approx(25.3, abs=0.2)

@@ -34,7 +34,7 @@ def _eased(found: Found) -> Seen | None:
 
 
 def _excuses_nothing(eased: Seen, found: Found) -> bool:
-    """Say whether doubt need not be asked: without names it leaves what is allowed for as it is."""
+    """Say whether doubt need not be asked: without names it leaves what is allowed for."""
     return not eased.selection.support and eased.near_rest <= _least(found)
 
 

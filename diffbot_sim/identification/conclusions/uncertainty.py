@@ -41,7 +41,10 @@ def estimates(fit: Fit) -> dict[str, Estimate]:
     free = _free(fit)
     blocks = BLOCKS_OF_SIMULATION if fit.runs_free else BLOCKS
     known = fit.prior_information[free]
-    spread = jackknife(fit.jacobian[..., free], fit.whitened, known, blocks)
+    slopes = fit.jacobian[..., free]
+    # Its profile tells a moment; without the block that holds it, it might be anywhere.
+    slopes[..., fit.space.onsets] = 0.0
+    spread = jackknife(slopes, fit.whitened, known, blocks)
     found = estimates_at(fit.space, fit.u, spread, blocks)
     lasting = _lasting(fit, spread) if fit.runs_free else 1.0
     for index in fit.space.shapes:

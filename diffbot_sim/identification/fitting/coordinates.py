@@ -88,6 +88,12 @@ class Space:
         shapes = {f'{kind.name}.{name}' for kind in self.kinds for name in kind.shape}
         return [i for i, coordinate in enumerate(self.coordinates) if coordinate.name in shapes]
 
+    @property
+    def onsets(self) -> list[int]:
+        """Where moments stand at which an effect sets in."""
+        onsets = {f'{kind.name}.{kind.onset}' for kind in self.kinds if kind.onset is not None}
+        return [i for i, coordinate in enumerate(self.coordinates) if coordinate.name in onsets]
+
     def model(self, u: Array) -> Model:
         """Return the model at a point."""
         values = self.values(u)

@@ -1,7 +1,11 @@
-"""Fits shaken out of local minima: whether a wheel breaks away is a jump that errors hang on."""
+"""Fits shaken out of local minima: whether a wheel breaks away is a jump that errors hang on.
+
+In the moment at which an effect sets in the error is a staircase with hollows, too.
+"""
 
 from collections.abc import Iterator
 from functools import partial
+from itertools import product
 
 import numpy as np
 
@@ -16,6 +20,8 @@ from diffbot_sim.records import Array
 
 # What decides whether a wheel breaks away or sticks, and how far it is moved, in its coordinate.
 SHAKEN, KICK = ('mu_coulomb', 'mu_static'), 0.15
+# How far a moment is moved, either way [s].
+MOVED = (0.4, 1.2)
 # A noise model that hears every error: one that hears little may never find a disturbance that is
 # far stronger than the noise.
 QUICK_GAINS = np.array([0.9, 0.5, 0.5, 0.9, 0.5, 0.5])
@@ -49,10 +55,10 @@ def _approach(fit: Fit, start: Array) -> Fit:
 
 
 def _beside(fit: Fit) -> Iterator[Array]:
-    """Yield points of other friction at rest."""
-    names = [coordinate.name for coordinate in fit.space.coordinates]
-    for index in (names.index(name) for name in SHAKEN if name in names):
-        for kick in (KICK, -KICK):
-            beside = fit.u.copy()
-            beside[index] += kick
-            yield beside
+    """Yield points of other friction at rest, and of other moments."""
+    rest = [i for i, it in enumerate(fit.space.coordinates) if it.name in SHAKEN]
+    sizes = [*product(rest, (KICK,)), *product(fit.space.onsets, MOVED)]
+    for (index, size), way in product(sizes, (1.0, -1.0)):
+        beside = fit.u.copy()
+        beside[index] += way * size
+        yield beside
