@@ -25,7 +25,7 @@ def offset_balance(at: Motion, balance: Balance, offset: float) -> Balance:
 class ComOffset(Effect):
     """m (dv/dt - d ω²) = F and (J + m d²) dω/dt + m d ω v = τ, with J about the centre.
 
-    The weight on the wheels, and with it their friction, stays.
+    A slope pulls at the centre, too. The weight on the wheels, and with it their friction, stays.
     """
 
     name = 'com_offset'
