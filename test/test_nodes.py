@@ -116,9 +116,9 @@ def test_all_messages_of_a_tick_carry_its_stamp(bare):
     for topic in topics:
         bare.listen(WrenchStamped, topic)
     bare.listen(JointState, 'joint_states')
-    stamp = stamps(bare.hear(5))[-1]
-    for topic in (*topics, 'joint_states'):
-        bare.until(lambda topic=topic: stamp in stamps(bare.heard[topic]))
+    told = [bare.heard[topic] for topic in ('odom', *topics, 'joint_states')]
+    # A busy machine may lose some: of five ticks all is heard.
+    bare.until(lambda: len(set.intersection(*(set(stamps(each)) for each in told))) >= 5)
     assert bare.heard['left_wheel/force'][0].header.frame_id == 'left_wheel_contact'
 
 
