@@ -18,10 +18,12 @@ from rich.console import Console
 from diffbot_sim.identification.result import Bias, ErrorNorm, Estimate, Identification, Timing
 from diffbot_sim.physics.effects import library, sought_effects
 from diffbot_sim.physics.effects.effective_track import EffectiveTrack
+from diffbot_sim.physics.friction import Friction
 from diffbot_sim.physics.model import Model
 from diffbot_sim.report import figures, print_summary, sentences, write_report
 from diffbot_sim.report.dependence import binned
 from diffbot_sim.report.numerals import estimate_text, significant
+from diffbot_sim.report.rows import kept_rows
 
 Answer = Callable[[], Identification]
 ANSWERS = [by_hand.nothing_missing, by_hand.found, by_hand.unexplained]
@@ -406,3 +408,10 @@ def test_verdict_tells_of_the_axis_that_got_worse() -> None:
     worse = replace(by_hand.errors(0.0041), recalibrated=by_hand.ErrorNorm(0.0021, 0.0082))
     said = sentences.verdict(replace(by_hand.found('yaw_friction'), errors=worse))
     assert 'held-out speed error rises from 2.10 mm/s to 4.10 mm/s' in said
+
+
+def test_kept_as_declared_is_what_the_law_uses_and_was_not_fitted() -> None:
+    simple = Model(friction=Friction('coulomb_viscous'))
+    names = {row.name for row in kept_rows(replace(by_hand.nothing_missing(), declared=simple))}
+    assert {'wheel_separation', 'wheel_radius', 'model', 'normal_force'} <= names
+    assert names.isdisjoint({'mu_static', 'stribeck'})

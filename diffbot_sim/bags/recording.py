@@ -40,9 +40,9 @@ class RawWriter:
     def write(self, message: Raw, offer: Offer = USUAL) -> None:
         """Add a message; the first of a topic says what its publisher offers."""
         key = message.topic, message.kind
-        if key not in self._connections:
-            self._connections[key] = self._connect(*key, offer)
         with self._telling():
+            if key not in self._connections:
+                self._connections[key] = self._connect(*key, offer)
             self._writer.write(self._connections[key], message.stamp, message.data)
 
     def flush(self) -> None:

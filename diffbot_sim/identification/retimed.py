@@ -41,9 +41,9 @@ def timed(recordings: Recordings, question: Question) -> Found:
     taken = _Taken(begun.recordings, question)
     older = Ages(begun.base, begun.recordings).beyond_doubt(question.kinds)
     if older is not None:
-        final = taken.as_older(older).selection.final
-        if is_beyond_doubt(older, final, begun.recordings, question.kinds):
-            return taken.as_older(older)
+        found = taken.as_older(older)
+        if is_beyond_doubt(older, found.selection.final, begun.recordings, question.kinds):
+            return found
     tried = tried_first(begun, question)
     filtered = _filtered_beyond_doubt(begun, tried, question)
     return filtered or _held_against_older(found_from(begun, tried, question), taken, question)

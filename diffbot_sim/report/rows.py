@@ -12,7 +12,7 @@ from diffbot_sim.identification.result import (
 )
 from diffbot_sim.parameters import Spec, specs
 from diffbot_sim.physics.effects import library
-from diffbot_sim.physics.friction import Friction
+from diffbot_sim.physics.friction import ACTIVE, Friction
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.robot import Robot
 from diffbot_sim.report.errors import ratio
@@ -110,13 +110,13 @@ def nominal_rows(result: Identification) -> list[ParameterRow]:
 def kept_rows(result: Identification) -> list[ParameterRow]:
     """List the parameters of robot and friction that stayed as declared, and are used."""
     robot, friction = result.declared.robot, result.declared.friction
-    law = () if LAW in result.contradicted else specs(friction)
-    used = [spec for spec in law if spec.choices or spec.name in friction.active]
-    given = [(robot, spec) for spec in specs(robot)] + [(friction, spec) for spec in used]
+    unused = set(ACTIVE['generalized']).difference(friction.active)
+    law = {'model'} if LAW in result.contradicted else set[str]()
     return [
         ParameterRow(spec.name, spec.meaning, _as_declared(part, spec))
-        for part, spec in given
-        if spec.name not in result.nominal
+        for part in (robot, friction)
+        for spec in specs(part)
+        if spec.name not in {*result.nominal, *unused, *law}
     ]
 
 

@@ -1,6 +1,6 @@
 """The numbers that a fit may turn, and the model that they stand for."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from dataclasses import dataclass, replace
 from math import exp, log
 from typing import Any
@@ -82,17 +82,19 @@ class Space:
         names = (coordinate.name for coordinate in self.coordinates)
         return [index for index, name in enumerate(names) if name.startswith(effect + '.')]
 
+    def where(self, names: Container[str]) -> list[int]:
+        """Return where the coordinates of these names stand, as far as there are any."""
+        return [i for i, coordinate in enumerate(self.coordinates) if coordinate.name in names]
+
     @property
     def shapes(self) -> list[int]:
         """Where moments, periods and the like stand: they mean nothing without an amount."""
-        shapes = {f'{kind.name}.{name}' for kind in self.kinds for name in kind.shape}
-        return [i for i, coordinate in enumerate(self.coordinates) if coordinate.name in shapes]
+        return self.where({f'{kind.name}.{name}' for kind in self.kinds for name in kind.shape})
 
     @property
     def onsets(self) -> list[int]:
         """Where moments stand at which an effect sets in."""
-        onsets = {f'{kind.name}.{kind.onset}' for kind in self.kinds if kind.onset is not None}
-        return [i for i, coordinate in enumerate(self.coordinates) if coordinate.name in onsets]
+        return self.where({f'{kind.name}.{kind.onset}' for kind in self.kinds if kind.onset})
 
     def model(self, u: Array) -> Model:
         """Return the model at a point."""

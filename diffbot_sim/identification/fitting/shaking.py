@@ -56,8 +56,8 @@ def _approach(fit: Fit, start: Array) -> Fit:
 
 def _beside(fit: Fit) -> Iterator[Array]:
     """Yield points of other friction at rest, and of other moments."""
-    rest = [i for i, it in enumerate(fit.space.coordinates) if it.name in SHAKEN]
-    sizes = [*product(rest, (KICK,)), *product(fit.space.onsets, MOVED)]
+    at_rest = product(fit.space.where(SHAKEN), (KICK,))
+    sizes = [*at_rest, *product(fit.space.onsets, MOVED)]
     for (index, size), way in product(sizes, (1.0, -1.0)):
         beside = fit.u.copy()
         beside[index] += way * size
