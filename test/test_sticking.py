@@ -147,7 +147,7 @@ def test_stiff_friction_is_followed_to_terminal_speed(viscous, stribeck):
         assert run.friction[stamp] == pytest.approx((force, 0.45 * force), rel=1e-6)
 
 
-@pytest.mark.parametrize(('normal_force', 'left'), [(1e5, 1e-9), (1e6, 1.0)])
+@pytest.mark.parametrize(('normal_force', 'left'), [(5e3, 1e-9), (1e5, 1.0), (1e6, 1.0)])
 def test_friction_adds_no_energy_however_stiff_it_is(normal_force, left):
     """What no step is short enough for keeps its speed."""
     stiff = Model(friction=Friction(mu_viscous=1e3, normal_force=normal_force))

@@ -24,8 +24,9 @@ from diffbot_sim.records import Array
 LOCATION = 1e-11
 # Events in one step beyond this many are grazing contacts; they are left to stick.
 MOST_EVENTS = 64
-# A step is halved, at most so often, while its stages disagree: there the method is unstable.
-MOST_HALVINGS = 20
+# A step is halved while its stages disagree, for there the method is unstable; at most to this
+# share of it: a live robot must never wait for its friction.
+SHORTEST_SHARE = 2.0**-12
 
 
 @compiled
@@ -41,14 +42,15 @@ def advance(
     work: Array,
 ) -> None:
     """Move z, modes and effect states on by one step under constant inputs, events included."""
-    done, events = 0.0, 0
+    done, events, longest, shortest = 0.0, 0, duration, duration * SHORTEST_SHARE
     while done < duration:
         held = events < MOST_EVENTS and update_contacts(
             dynamics.laws, params, states, z, modes, inputs, time + done
         )
         left = duration - done
+        span = min(left, longest)
         taken, event = _step_to_event(
-            dynamics, params, states, z, modes, inputs, time + done, left, work, held
+            dynamics, params, states, z, modes, inputs, time + done, span, shortest, work, held
         )
         if len(states) > 0:
             dynamics.settle(params, states, motion_at(params, z, time + done, taken), inputs)
@@ -56,6 +58,8 @@ def advance(
         if event:
             contact.arrive(z, modes)
             events += 1
+        # What was too long a moment ago is not tried again at once.
+        longest = duration if event else 2.0 * taken
         done = duration if taken == left else done + taken
 
 
@@ -91,11 +95,12 @@ def _step_to_event(
     inputs: Inputs,
     time: float,
     duration: float,
+    shortest: float,
     work: Array,
     held: bool,
 ) -> tuple[float, bool]:
     """Leave in work[0] the state after the step, or at its first event; return (taken, event)."""
-    step = _stable_step(dynamics, params, states, z, modes, inputs, time, duration, work)
+    step = _stable_step(dynamics, params, states, z, modes, inputs, time, duration, shortest, work)
     if step == 0.0:
         return duration, False
     after = _margin(dynamics.laws, params, states, work[0], modes, inputs, time, step, held)
@@ -124,19 +129,21 @@ def _stable_step(
     inputs: Inputs,
     time: float,
     duration: float,
+    shortest: float,
     work: Array,
 ) -> float:
     """Take the longest stable step that halving the duration gives; return it.
 
-    Where none is stable all stays as it is, and 0 is returned: an unstable step would add energy.
+    Where the shortest is not stable all stays as it is, and 0 is returned: an unstable step would
+    add energy.
     """
     step = duration
-    for _ in range(MOST_HALVINGS + 1):
-        if dynamics.step(params, states, z, modes, inputs, time, step, work):
-            return step
+    while not dynamics.step(params, states, z, modes, inputs, time, step, work):
         step *= 0.5
-    copy_state(z, work[0])
-    return 0.0
+        if step < shortest:
+            copy_state(z, work[0])
+            return 0.0
+    return step
 
 
 @compiled
