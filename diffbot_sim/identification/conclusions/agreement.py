@@ -16,6 +16,7 @@ import numpy as np
 from scipy import stats
 
 from diffbot_sim.identification.conclusions.uncertainty import estimates_at
+from diffbot_sim.identification.conclusions.wandering import wandering
 from diffbot_sim.identification.fitting.fit import Fit, fit_with_noise_held
 from diffbot_sim.identification.recordings.free_running import run_free
 from diffbot_sim.identification.recordings.start import restarted
@@ -111,7 +112,8 @@ def share_of(fit: Fit) -> Share:
     centred = scores - scores.mean(axis=0)
     information = np.einsum('nap,naq->pq', jacobian, jacobian)
     spread = centred.T @ centred * BLOCKS / (BLOCKS - 1)
-    return Share(information, information @ fit.u - scores.sum(axis=0), spread)
+    astray = information @ wandering(fit, jacobian) @ information
+    return Share(information, information @ fit.u - scores.sum(axis=0), spread + astray)
 
 
 def total(shares: Sequence[Share], chosen: Sequence[int]) -> Share:

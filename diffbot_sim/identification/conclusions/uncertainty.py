@@ -1,4 +1,7 @@
-"""Intervals: from fits that lack a block of the run each; of moments and periods by profiles."""
+"""Intervals: from fits that lack a block of the run each; of moments and periods by profiles.
+
+Both are wider where the way itself is uncertain that effects hang on.
+"""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -7,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from diffbot_sim.identification.conclusions.wandering import wandering
 from diffbot_sim.identification.fitting.coordinates import Coordinate, Space
 from diffbot_sim.identification.fitting.fit import GAIN_LIMITS, Fit
 from diffbot_sim.identification.result import Estimate
@@ -45,12 +49,17 @@ def estimates(fit: Fit) -> dict[str, Estimate]:
     # Its profile tells a moment; without the block that holds it, it might be anywhere.
     slopes[..., fit.space.onsets] = 0.0
     spread = jackknife(slopes, fit.whitened, known, blocks)
-    found = estimates_at(fit.space, fit.u, spread, blocks)
+    of_the_way = wandering(fit, slopes)
+    found = estimates_at(fit.space, fit.u, spread + of_the_way, blocks)
     lasting = _lasting(fit, spread) if fit.runs_free else 1.0
     for index in fit.space.shapes:
         coordinate = fit.space.coordinates[index]
         rise, best = _Profile(fit, index, lasting).rise, float(fit.u[index])
-        ends = (farthest(rise, best, bound[index]) for bound in fit.space.bounds())
+        astray = quantile(blocks) * float(np.sqrt(of_the_way[index, index]))
+        ends = (
+            farther(farthest(rise, best, bound[index]), best, astray, bound[index])
+            for bound in fit.space.bounds()
+        )
         low, high = sorted(map(coordinate.value, ends))
         found[coordinate.name] = replace(found[coordinate.name], low=low, high=high)
     return found
@@ -89,6 +98,12 @@ def farthest(rise: Callable[[float], float], best: float, bound: float) -> float
         else:
             beyond = middle
     return within
+
+
+def farther(end: float, best: float, astray: float, bound: float) -> float:
+    """Return where an interval ends that errors of another origin reach so far beyond the best."""
+    reach = min(float(np.hypot(end - best, astray)), abs(bound - best))
+    return best + float(np.copysign(reach, bound - best))
 
 
 class _Profile:

@@ -1,0 +1,78 @@
+"""What estimates owe to a way that is only known as the noise of the twists adds up.
+
+Ripples hang on the angles of the wheels, slopes on the heading. Where both are sums of twists
+their errors wander. Blocks of a run hardly tell of that, for one drifts on from the other.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from diffbot_sim.identification.fitting.fit import Fit, whitened
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.recordings.way import pose_knows_more
+from diffbot_sim.identification.statistics.norms import white_noise
+from diffbot_sim.records import Array
+
+# So many terms of Karhunen and Loève hold 97 % of the variance of a random walk.
+TERMS = 8
+# Errors are added up for so long [s]: what encoders round off cancels within that.
+ADDED_UP = 1.0
+# Fewer sums than these tell no variance.
+FEWEST = 10
+
+
+def wandering(fit: Fit, slopes: Array) -> Array:
+    """Return the covariance of parameters that the errors of the measured way bring about.
+
+    slopes: derivatives of the whitened errors by the parameters, shape (n, 2, p); the covariance,
+    shape (p, p), is of the least-squares answer to them, to first order.
+    """
+    answer = np.linalg.pinv(slopes.reshape(-1, slopes.shape[-1]), rcond=1e-8)
+    moved = [answer @ change.ravel() for change in _changes(fit)]
+    return np.asarray(np.transpose(moved) @ moved) if moved else np.zeros(2 * answer.shape[:1])
+
+
+def _changes(fit: Fit) -> Iterator[Array]:
+    """Yield what each independent wandering, one deviation of it, adds to the errors, (n, 2)."""
+    errors = np.split(fit.whitened * fit.sigma, np.cumsum([s.used.sum() for s in fit.stretches]))
+    for index, (stretch, missed) in enumerate(zip(fit.stretches, errors, strict=False)):
+        if pose_knows_more(stretch.run.odometry):
+            continue
+        before, after = fit.stretches[:index], fit.stretches[index + 1 :]
+        for error in _walks(stretch, missed):
+            other = (*before, _led_astray(stretch, error), *after)
+            yield whitened(other, fit.model, fit.gains, fit.sigma) - fit.whitened
+
+
+def _walks(stretch: Stretch, missed: Array) -> Iterator[Array]:
+    """Yield independent errors of way [m] and turn [rad], one deviation of each, (k, 2)."""
+    deviation = np.sqrt(_growth(stretch, missed))
+    last = float(stretch.time[-1])
+    for term in range(TERMS):
+        pace = (term + 0.5) * np.pi / last
+        shape = np.sqrt(2.0 / last) / pace * np.sin(pace * stretch.time)
+        for axis in np.eye(2):
+            yield np.outer(shape, axis * deviation)
+
+
+def _growth(stretch: Stretch, missed: Array) -> Array:
+    """Return by how much the variance of way and turn grows in a second, shape (2,).
+
+    By the white noise of the twists, but no more than errors of the prediction add up to: noise of
+    encoders cancels, and a rough floor errs more than any sensor.
+    """
+    interval = stretch.interval
+    white = np.asarray(white_noise(stretch.run.odometry.twist) ** 2 * interval)
+    many = max(1, round(ADDED_UP / interval))
+    times = len(missed) // many
+    if times < FEWEST:
+        return white
+    sums = missed[: times * many].reshape(times, many, 2).sum(axis=1) * interval
+    return np.asarray(np.minimum(white, sums.var(axis=0) / (many * interval)))
+
+
+def _led_astray(stretch: Stretch, error: Array) -> Stretch:
+    """Return a stretch whose way and heading were measured with this error, shape (k, 2)."""
+    return replace(stretch, way=stretch.way + error, heading=stretch.heading + error[:, 1])
