@@ -14,7 +14,8 @@ from geometry_msgs.msg import WrenchStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 
-from diffbot_sim.nodes.conversions import nanoseconds
+from diffbot_sim.__main__ import COMPILES
+from diffbot_sim.nodes.conversions import nanoseconds, twist_of
 
 COMMAND = [sys.executable, '-m', 'diffbot_sim']
 DEPTH = 1000  # messages that may wait while a test is busy
@@ -59,7 +60,8 @@ def refusal(*words: str) -> str:
         [*COMMAND, *words], capture_output=True, text=True, timeout=PATIENCE, check=False
     )
     assert result.returncode == 1
-    (line,) = result.stderr.splitlines()
+    # Where a machine is slow the command says first that it is loading.
+    (line,) = (line for line in result.stderr.splitlines() if line != COMPILES)
     return line
 
 
@@ -142,6 +144,21 @@ class Robot:
                 self._forces[side].publish(message)
             seen += self.hear(1)
         return seen
+
+    def move(self, right: float, left: float) -> Odometry:
+        """Push until the robot drives and turns; return the first message that says so.
+
+        Forces may be late, or time out between two messages, where a machine is busy.
+        """
+        told: list[Odometry] = []
+
+        def moves() -> bool:
+            told[:] = self.push(right, left, 1)
+            v, omega = twist_of(told[0])
+            return v > 0.05 and abs(omega) > 0.01
+
+        self.until(moves)
+        return told[0]
 
     def publish_force(self, side: str, message: WrenchStamped) -> None:
         """Publish one command as it is."""

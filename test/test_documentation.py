@@ -75,7 +75,7 @@ def test_the_topics_of_a_node_are_the_documented_ones(robot, name):
         spoken = robot.node.get_publisher_names_and_types_by_node(name, SPACE[:-1])
         return offered(heard, 'in') | offered(spoken, 'out')
 
-    robot.until(lambda: seen() == told(f'`{name}`\n'), patience=20.0)
+    robot.until(lambda: seen() == told(f'`{name}`\n'))
 
 
 def test_the_services_of_the_simulator_are_the_documented_ones(robot):
@@ -84,4 +84,4 @@ def test_the_services_of_the_simulator_are_the_documented_ones(robot):
         return {item for item in offered(services, '') if item[1].startswith('std_srvs/')}
 
     documented = {(name, kind, '') for name, kind, _ in told('## Services')}
-    robot.until(lambda: seen() == documented, patience=20.0)
+    robot.until(lambda: seen() == documented)

@@ -53,7 +53,7 @@ def test_an_hour_at_rest_on_a_slope_changes_no_bit(tmp_path):
 
 
 def test_the_robot_starts_where_it_is_told_and_returns_there(robot):
-    robot.push(12.0, 10.0, 30)
+    robot.move(12.0, 10.0)
     assert pose_of(robot.hear(1)[0])[0] > 1.5
     robot.call(Empty, 'simulator/reset', Empty.Request())
     assert pose_of(robot.catch_up().hear(1)[0]) == pytest.approx((1.5, 0.0, 0.5), abs=1e-12)
@@ -65,7 +65,7 @@ def test_frames_carry_the_prefix(robot):
 
 
 def test_an_initial_pose_moves_the_robot_and_leaves_it_at_rest(robot):
-    robot.push(12.0, 10.0, 30)
+    robot.move(12.0, 10.0)
     with robot.publishing('initialpose', moved_to(-2.0, 3.0, 'r/odom')):
         robot.until(lambda: pose_of(robot.hear(1)[0]) == pytest.approx((-2.0, 3.0, pi)))
         assert twist_of(robot.hear(1)[0]) == (0.0, 0.0)

@@ -30,20 +30,25 @@ def wandering(fit: Fit, slopes: Array) -> Array:
     shape (p, p), is of the least-squares answer to them, to first order.
     """
     answer = np.linalg.pinv(slopes.reshape(-1, slopes.shape[-1]), rcond=1e-8)
-    moved = [answer @ change.ravel() for change in _changes(fit)]
+    ends = np.cumsum([stretch.used.sum() for stretch in fit.stretches])[:-1]
+    shares = np.split(answer.reshape(len(answer), -1, 2), ends, axis=1)
+    moved = [
+        np.tensordot(share, change, 2)
+        for stretch, share, errors in zip(
+            fit.stretches, shares, np.split(fit.whitened, ends), strict=True
+        )
+        for change in _changes(fit, stretch, errors)
+    ]
     return np.asarray(np.transpose(moved) @ moved) if moved else np.zeros(2 * answer.shape[:1])
 
 
-def _changes(fit: Fit) -> Iterator[Array]:
-    """Yield what each independent wandering, one deviation of it, adds to the errors, (n, 2)."""
-    errors = np.split(fit.whitened * fit.sigma, np.cumsum([s.used.sum() for s in fit.stretches]))
-    for index, (stretch, missed) in enumerate(zip(fit.stretches, errors, strict=False)):
-        if pose_knows_more(stretch.run.odometry):
-            continue
-        before, after = fit.stretches[:index], fit.stretches[index + 1 :]
-        for error in _walks(stretch, missed):
-            other = (*before, _led_astray(stretch, error), *after)
-            yield whitened(other, fit.model, fit.gains, fit.sigma) - fit.whitened
+def _changes(fit: Fit, stretch: Stretch, errors: Array) -> Iterator[Array]:
+    """Yield what each independent wandering, one deviation, adds to a stretch's errors, (n, 2)."""
+    if pose_knows_more(stretch.run.odometry):
+        return
+    for error in _walks(stretch, errors * fit.sigma):
+        astray = _led_astray(stretch, error)
+        yield whitened((astray,), fit.model, fit.gains, fit.sigma) - errors
 
 
 def _walks(stretch: Stretch, missed: Array) -> Iterator[Array]:
