@@ -1,5 +1,7 @@
 """What intervals owe to a way that adds up the noise of the twists."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from fits import without_pose
@@ -15,16 +17,17 @@ from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
 from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.physics.effects.wheel_ripple import WheelRipple
-from diffbot_sim.records import Run
+from diffbot_sim.records import Array, Run
 
+SMOOTH = Surroundings()
 RIPPLE = WheelRipple(5.3, 0.5, 0.0, 0.2, 0.4)
 (SCALE,) = {spec.scale for spec in WheelRipple.specs() if spec.unit == 'N'}  # of a coordinate
 
 
-def driven(effect: Effect, seed: int = 1) -> Run:
+def driven(effect: Effect, seed: int = 1, around: Surroundings = SMOOTH) -> Run:
     """Return a drive without a pose: the way is what the twists add up to."""
     forces = random_forces(seed, 60.0, -9.0, 11.0)
-    return without_pose(rehearse(Model(effects=(effect,)), forces, Surroundings(), seed))
+    return without_pose(rehearse(Model(effects=(effect,)), forces, around, seed))
 
 
 def fitted(effect: Effect, run: Run) -> Fit:
@@ -54,6 +57,19 @@ def test_phase_of_a_ripple_wanders_with_the_angle_of_its_wheel() -> None:
     speed = 0.004**2 + (fit.model.half_separation * 0.008) ** 2
     angle = speed * stretch.interval * stretch.time[-1] / 3.0 / robot.wheel_radius**2
     assert spread == pytest.approx(angle * (5.3 * 0.5) ** 2, rel=0.4)
+
+
+def test_noise_that_cancels_leads_hardly_astray() -> None:
+    """Encoders make up for what they rounded off, the sample before."""
+    run = driven(RIPPLE, around=Surroundings(1e-4, 1e-4))
+    noise = np.random.default_rng(1).normal(0.0, 0.004, (len(run.odometry.time) + 1, 2))
+
+    def astray(added: Array) -> float:
+        odometry = replace(run.odometry, twist=run.odometry.twist + added)
+        fit = fitted(RIPPLE, replace(run, odometry=odometry))
+        return float(np.trace(wandering(fit, fit.jacobian)))
+
+    assert astray(np.diff(noise, axis=0)) < 0.1 * astray(np.sqrt(2.0) * noise[1:])
 
 
 @pytest.mark.parametrize('effect', [RIPPLE, Slope(0.02, 0.01)], ids=['ripple', 'slope'])

@@ -17,10 +17,6 @@ from diffbot_sim.records import Array
 
 # So many terms of Karhunen and Loève hold 97 % of the variance of a random walk.
 TERMS = 8
-# Errors are added up for so long [s]: what encoders round off cancels within that.
-ADDED_UP = 1.0
-# Fewer sums than these tell no variance.
-FEWEST = 10
 
 
 def wandering(fit: Fit, slopes: Array) -> Array:
@@ -65,17 +61,12 @@ def _walks(stretch: Stretch, missed: Array) -> Iterator[Array]:
 def _growth(stretch: Stretch, missed: Array) -> Array:
     """Return by how much the variance of way and turn grows in a second, shape (2,).
 
-    By the white noise of the twists, but no more than errors of the prediction add up to: noise of
-    encoders cancels, and a rough floor errs more than any sensor.
+    By the white noise of the twists, or what of errors does not cancel from sample to sample, if
+    that is less: encoders make up for what they rounded off, and floors err more than a sensor.
     """
-    interval = stretch.interval
-    white = np.asarray(white_noise(stretch.run.odometry.twist) ** 2 * interval)
-    many = max(1, round(ADDED_UP / interval))
-    times = len(missed) // many
-    if times < FEWEST:
-        return white
-    sums = missed[: times * many].reshape(times, many, 2).sum(axis=1) * interval
-    return np.asarray(np.minimum(white, sums.var(axis=0) / (many * interval)))
+    white = white_noise(stretch.run.odometry.twist) ** 2
+    lasting = np.mean(missed**2, axis=0) + 2.0 * np.mean(missed[1:] * missed[:-1], axis=0)
+    return np.asarray(np.clip(lasting, 0.0, white) * stretch.interval)
 
 
 def _led_astray(stretch: Stretch, error: Array) -> Stretch:
