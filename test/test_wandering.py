@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from fits import without_pose
+from fits import SMOOTH, without_pose
 from rehearsal import Surroundings, random_forces, rehearse
 
 from diffbot_sim.identification.conclusions.uncertainty import estimates
@@ -19,15 +19,19 @@ from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.physics.effects.wheel_ripple import WheelRipple
 from diffbot_sim.records import Array, Run
 
-SMOOTH = Surroundings()
 RIPPLE = WheelRipple(5.3, 0.5, 0.0, 0.2, 0.4)
 (SCALE,) = {spec.scale for spec in WheelRipple.specs() if spec.unit == 'N'}  # of a coordinate
 
 
-def driven(effect: Effect, seed: int = 1, around: Surroundings = SMOOTH) -> Run:
-    """Return a drive without a pose: the way is what the twists add up to."""
+def posed(effect: Effect, seed: int = 1, around: Surroundings = SMOOTH) -> Run:
+    """Return a drive whose pose tells the way."""
     forces = random_forces(seed, 60.0, -9.0, 11.0)
-    return without_pose(rehearse(Model(effects=(effect,)), forces, around, seed))
+    return rehearse(Model(effects=(effect,)), forces, around, seed)
+
+
+def driven(effect: Effect, seed: int = 1, around: Surroundings = SMOOTH) -> Run:
+    """Return the same without a pose: the way is what the twists add up to."""
+    return without_pose(posed(effect, seed, around))
 
 
 def fitted(effect: Effect, run: Run) -> Fit:
@@ -38,8 +42,7 @@ def fitted(effect: Effect, run: Run) -> Fit:
 
 
 def test_way_that_a_pose_tells_leads_nothing_astray() -> None:
-    forces = random_forces(1, 60.0, -9.0, 11.0)
-    fit = fitted(RIPPLE, rehearse(Model(effects=(RIPPLE,)), forces, Surroundings(), 1))
+    fit = fitted(RIPPLE, posed(RIPPLE))
     assert not wandering(fit, fit.jacobian).any()
 
 

@@ -28,11 +28,10 @@ def wandering(fit: Fit, slopes: Array) -> Array:
     answer = np.linalg.pinv(slopes.reshape(-1, slopes.shape[-1]), rcond=1e-8)
     ends = np.cumsum([stretch.used.sum() for stretch in fit.stretches])[:-1]
     shares = np.split(answer.reshape(len(answer), -1, 2), ends, axis=1)
+    parts = zip(fit.stretches, shares, np.split(fit.whitened, ends), strict=True)
     moved = [
         np.tensordot(share, change, 2)
-        for stretch, share, errors in zip(
-            fit.stretches, shares, np.split(fit.whitened, ends), strict=True
-        )
+        for stretch, share, errors in parts
         for change in _changes(fit, stretch, errors)
     ]
     return np.asarray(np.transpose(moved) @ moved) if moved else np.zeros(2 * answer.shape[:1])
