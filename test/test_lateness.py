@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from counting import at_both_ends, counted, driven, posed
 from fits import fitted, without_pose
-from rehearsal import Surroundings, random_forces, rehearse
 
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.older import Ages
@@ -22,31 +22,9 @@ from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
-from diffbot_sim.records import Array, Odometry, Run
+from diffbot_sim.records import Odometry, Run
 
-TICK = 1.5e-4  # [m] that a wheel rolls for each count
-HALF = Model().robot.half_separation
 LATENESS = (ActuatorDelay, ActuatorLag)
-
-
-def driven(model: Model, seed: int = 2) -> Run:
-    """Return a drive with white noise on the twist and the true pose, at 50 Hz."""
-    return rehearse(model, random_forces(seed, 60.0, -9.0, 11.0), Surroundings(), seed)
-
-
-def counted(run: Run, over: int) -> Run:
-    """Return what a driver makes of encoders: poses of counts, twists as means over intervals."""
-    pose, time = run.odometry.pose, run.odometry.time
-    step, heading = np.diff(pose, axis=0), 0.5 * (pose[1:, 2] + pose[:-1, 2])
-    way = np.cumsum(step[:, 0] * np.cos(heading) + step[:, 1] * np.sin(heading))
-    turn = pose[1:, 2] - pose[0, 2]
-    counts = np.floor(np.column_stack([way + HALF * turn, way - HALF * turn]) / TICK) * TICK
-    path = np.column_stack([counts.mean(axis=1), counts @ [0.5, -0.5] / HALF])
-    moved, middle = np.diff(path, axis=0), 0.5 * (path[1:, 1] + path[:-1, 1])
-    where = np.cumsum(moved[:, :1] * np.column_stack([np.cos(middle), np.sin(middle)]), axis=0)
-    poses = np.column_stack([where, path[1:, 1]])[over - 1 :]
-    twist = (path[over:] - path[:-over]) / (time[over + 1 :] - time[1:-over])[:, None]
-    return replace(run, odometry=Odometry(time[over + 1 :], twist, poses))
 
 
 @pytest.mark.parametrize(('over', 'lag'), [(1, 0.01), (5, 0.05), (10, 0.1)])
@@ -126,21 +104,6 @@ def test_tracker_whose_twists_are_means_over_a_noisy_pose_makes_no_robot_strange
     assert answer.verdict == 'nothing_missing'
 
 
-def posed(run: Run, moved: Array) -> Run:
-    """Return a run whose poses are its ways and turns between samples, (k - 1, 2), added up."""
-    first = run.odometry.pose[:1]
-    heading = first[0, 2] + np.concatenate([[0.0], np.cumsum(moved[:, 1])])
-    middle = 0.5 * (heading[1:] + heading[:-1])
-    steps = moved[:, :1] * np.column_stack([np.cos(middle), np.sin(middle)])
-    where = np.concatenate([first[:, :2], first[:, :2] + np.cumsum(steps, axis=0)])
-    return replace(run, odometry=replace(run.odometry, pose=np.column_stack([where, heading])))
-
-
-def at_both_ends(odometry: Odometry) -> Array:
-    """Return ways and turns as the twists at both ends of each step make them."""
-    return 0.5 * (odometry.twist[1:] + odometry.twist[:-1]) * np.diff(odometry.time)[:, None]
-
-
 def headed_by_its_turn_rate(run: Run) -> Run:
     """Return a run whose poses have the heading that its turn rates sum up to."""
     way = run.odometry.twist[1:, 0] * np.diff(run.odometry.time)
@@ -174,7 +137,7 @@ def test_differences_of_encoders_do_not_make_a_robot_late(known: Callable[[Run],
 
 @pytest.mark.parametrize('half_a_step', [5e-4, 2e-3])
 def test_means_over_the_steps_of_a_simulator_do_not_make_a_robot_late(half_a_step: float) -> None:
-    run = acted_before(counted(driven(Model()), 1), -half_a_step)
+    run = without_pose(acted_before(counted(driven(Model()), 1), -half_a_step))
     answer = identify([run], Model(), kinds=LATENESS)
     assert answer.verdict == 'nothing_missing'
     told = {it.taken: it.lateness for it in answer.timings}
@@ -202,7 +165,7 @@ def test_lost_messages_do_not_hide_that_encoders_tell_means() -> None:
     run = counted(driven(Model()), 1)
     seen = run.odometry
     kept = np.random.default_rng(1).random(len(seen.time)) > 0.02
-    lossy = Odometry(seen.time[kept], seen.twist[kept], seen.pose[kept])
+    lossy = Odometry(seen.time[kept], seen.twist[kept], None)
     answer = identify([replace(run, odometry=lossy)], Model(), kinds=LATENESS)
     assert answer.verdict == 'nothing_missing'
     assert [it.taken for it in answer.timings] == ['mean']
@@ -242,5 +205,5 @@ def test_delay_beside_coarse_means_is_told_less_what_they_are_late() -> None:
     run = counted(driven(Model(effects=(ActuatorDelay(0.06),))), 1)
     answer = identify([run], Model(), kinds=LATENESS)
     (effect,), (timing,) = answer.effects, answer.timings
-    assert timing.taken == 'mean'
+    assert timing.taken == 'counts'
     assert effect.parameters['time'].value == pytest.approx(0.06, abs=0.001)

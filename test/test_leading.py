@@ -11,6 +11,7 @@ from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_predict
 from diffbot_sim.identification.leading import lead_of
 from diffbot_sim.identification.recordings.acting import acted_before
 from diffbot_sim.identification.recordings.stretches import split
+from diffbot_sim.identification.result import Identification
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.effects.actuator_delay import ActuatorDelay
@@ -41,9 +42,22 @@ def test_forces_that_act_at_once_or_late_do_not_lead(effects: tuple[Effect, ...]
     assert lead_of(fitted(driven(*effects))) == 0.0
 
 
+def on_a_slope(late: float, done: list[str]) -> Identification:
+    """Return what is found on a slope where forces are stamped late [s]; done: what was tried."""
+    run = acted_before(driven(Slope(0.012, 0.008)), -late)
+    return identify([run], Model(), progress=done.append, kinds=[Slope, ActuatorLag])
+
+
 def test_forces_that_are_stamped_late_are_no_effect_and_hide_none() -> None:
-    run = acted_before(driven(Slope(0.012, 0.008)), -0.02)
-    answer = identify([run], Model(), kinds=[Slope, ActuatorLag])
+    answer = on_a_slope(0.02, [])
     assert ([e.name for e in answer.effects], answer.unexplained) == (['slope'], None)
     (timing,) = answer.timings
     assert (timing.taken, timing.lateness) == ('force', pytest.approx(0.02, abs=1e-3))
+
+
+def test_names_that_tell_all_are_not_searched_again_with_forces_that_act_earlier() -> None:
+    answer = on_a_slope(0.002, done := [])
+    assert ([e.name for e in answer.effects], answer.unexplained) == (['slope'], None)
+    assert [it.taken for it in answer.timings] == ['force']
+    after = done[done.index('taking forces for older than their stamps') :]
+    assert not any('trying' in step for step in after)

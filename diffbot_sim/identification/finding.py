@@ -43,6 +43,22 @@ def found_in(recordings: Recordings, question: Question) -> Found:
     return found_from(begun, tried_first(begun, question), question)
 
 
+def found_still(found: Found, recordings: Recordings, question: Question) -> Found | None:
+    """Return the same answer for recordings that are taken otherwise; None if a name falls."""
+    begun = begun_with(recordings, question)
+    selection = found.selection.fitted_anew(begun.base, recordings, begun.held_out)
+    if not selection.stands(len(question.kinds)):
+        return None
+    return replace(
+        found,
+        recordings=recordings,
+        held_out=begun.held_out,
+        recalibrated=begun.recalibrated,
+        undoubted=selection,
+        selection=selection,
+    )
+
+
 def fitted_and_held_out(recordings: Recordings) -> tuple[tuple[Stretch, ...], tuple[Stretch, ...]]:
     """Return what is fitted and what is held out, if anything follows from these."""
     fitted, held_out = recordings.divided

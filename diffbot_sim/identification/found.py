@@ -52,6 +52,11 @@ class Found:
         return bool(self.names) or self.unexplained is not None
 
     @property
+    def tells_all(self) -> bool:
+        """Whether names account for all that is told, and none was doubted."""
+        return bool(self.names) and not self.unexplained and self.selection is self.undoubted
+
+    @property
     def names(self) -> frozenset[str]:
         """The effects that were found."""
         return frozenset(self.selection.support)

@@ -154,15 +154,15 @@ class Timing:
     """A run whose twists, or forces, are older than their stamps.
 
     lateness: by how much [s]; taken: what was done: 'pose', taken from the pose instead, and
-    'smoothed', the same where they are not late; 'mean', as means since the sample before, and
-    'speed', the speeds alone; 'filter', as they were before a low-pass filter; 'undecided', as
-    they are stamped, though means explain them as well; 'force', forces as having acted so long
-    before their stamps.
+    'smoothed', the same where they are not late; 'counts', as the means since the sample before
+    that encoders' counts are; 'mean', as such for what they explain, and 'speed', the speeds
+    alone; 'filter', as they were before a low-pass filter; 'undecided', as they are stamped,
+    though means explain them as well; 'force', forces as having acted so long before their stamps.
     """
 
     run: str
     lateness: float
-    taken: Literal['pose', 'smoothed', 'mean', 'speed', 'filter', 'undecided', 'force']
+    taken: Literal['pose', 'smoothed', 'counts', 'mean', 'speed', 'filter', 'undecided', 'force']
 
 
 @dataclass(frozen=True)

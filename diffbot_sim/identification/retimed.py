@@ -10,6 +10,7 @@ from diffbot_sim.identification.finding import (
     begun_with,
     found_from,
     found_in,
+    found_still,
     settled,
     tried_first,
 )
@@ -136,14 +137,27 @@ def allowing_a_lead(found: Found, question: Question) -> Found:
     lead = lead_of(found.undoubted.final)
     if lead <= 0.0:
         return found
+    # Where nothing else is to be told no other names are looked for.
+    still = _told_as_led(found, lead, question) if found.tells_all else None
+    if still is not None:
+        return still
     other = settled(_taken_as_led(found.recordings, lead, question), question)
     if other.unexplained or not (found.unexplained or other.names <= found.names):
         return found
     return replace(other.timed_like(found), lead=lead)
 
 
+def _told_as_led(found: Found, lead: float, question: Question) -> Found | None:
+    """Return what was found with forces that are taken to act earlier, if all names stand then."""
+    still = found_still(found, _led(found.recordings, lead, question), question)
+    return None if still is None else replace(still, lead=lead)
+
+
 def _taken_as_led(recordings: Recordings, lead: float, question: Question) -> Found:
     """Search in recordings whose forces are taken to act so long before their stamps [s]."""
+    return replace(found_in(_led(recordings, lead, question), question), lead=lead)
+
+
+def _led(recordings: Recordings, lead: float, question: Question) -> Recordings:
     question.progress('taking forces for older than their stamps')
-    led = recordings.each(partial(acted_before, lead=lead))
-    return replace(found_in(led, question), lead=lead)
+    return recordings.each(partial(acted_before, lead=lead))

@@ -8,6 +8,8 @@ from diffbot_sim.report.numerals import significant, speed_text, turn_rate_text
 TIMINGS = {
     'pose': 'the twists are means over what the poses tell, {} late; that was used instead.',
     'smoothed': 'the twists are no sharper than the changes of the poses, which were used.',
+    'counts': 'the twists are whole counts of encoders since the sample before, and were taken as '
+    '{} older than their stamps.',
     'mean': 'the twists were taken as {} older than their stamps, as means over the past are; if '
     'they are not, the robot itself responds that late.',
     'speed': 'the speeds alone were taken as {} older than their stamps, as those of encoders '

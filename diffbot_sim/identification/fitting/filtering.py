@@ -78,8 +78,10 @@ def filter_behind(fit: Fit) -> Filter | None:
     unless a pose denies that twists are so late.
     None where no effect is late, nothing speaks for a filter, noise of a colour of its own or a
     lag explains more, though no lag was asked about, or twists come in steps as coarse as the
-    errors: those were made behind any filter.
+    errors: those were made behind any filter. Nor is one behind what is taken for means.
     """
+    if any(all(stretch.run.odometry.means) for stretch in fit.stretches):
+        return None
     if np.any(resolution(np.concatenate([s.twist for s in fit.stretches])) > fit.sigma):
         return None
     values = fit.space.values(fit.u)

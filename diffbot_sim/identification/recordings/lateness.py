@@ -13,6 +13,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.stats import wilcoxon
 
+from diffbot_sim.identification.recordings.counts import is_counted
 from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.recordings.smoothing import smoothed_over
 from diffbot_sim.identification.recordings.stretches import averaged
@@ -59,9 +60,12 @@ def timely(run: Run) -> Run:
     """Return a run whose twist is of the time of its pose.
 
     A lag of about half an interval is left as it is: poses that are integrated from the twist lead
-    it or lag behind it by so much. A longer mean, or one to both sides, hides what is fast: the
-    twist is taken from the pose's changes, over as many samples as noise and the mean ask for.
+    it or lag behind it by so much; but whole counts are means. A longer mean, or one to both
+    sides, hides what is fast: the twist is taken from the pose's changes, over as many samples as
+    noise and the mean ask for.
     """
+    if is_counted(run.odometry):
+        return of_interval_before(run)
     return _by_pose(run, _length_of_mean(run.odometry))
 
 
@@ -110,8 +114,13 @@ def timing(given: Run, taken: Run) -> Timing | None:
     if after.twist is not before.twist:
         lag = lag_behind_pose(before)
         return Timing(given.name, max(0.0, lag), 'pose' if lag > 0.0 else 'smoothed')
-    what: Literal['mean', 'speed'] = 'mean' if all(after.means) else 'speed'
-    return Timing(given.name, half_interval(given), what)
+    return Timing(given.name, half_interval(given), _what_is_mean(after))
+
+
+def _what_is_mean(taken: Odometry) -> Literal['counts', 'mean', 'speed']:
+    if not all(taken.means):
+        return 'speed'
+    return 'counts' if is_counted(taken) else 'mean'
 
 
 def half_interval(run: Run) -> float:

@@ -7,8 +7,15 @@ from typing import NamedTuple
 
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.shaking import shaken
+from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.selection.candidates import approach, begun_anew, fit_without
+from diffbot_sim.identification.selection.candidates import (
+    approach,
+    begun_anew,
+    fit_without,
+    on_recordings,
+    refitted,
+)
 from diffbot_sim.identification.selection.evidence import Evidence, compare
 from diffbot_sim.identification.selection.rivals import comes_up
 from diffbot_sim.identification.selection.screening import Screen
@@ -51,22 +58,39 @@ class Selection:
 
     def withdrawn(self, name: str, held_out: Sequence[Stretch], why: str) -> 'Selection':
         """Return the selection without one of the effects chosen, the others weighed anew."""
-        kept, final = [key for key in self.support if key != name], self.without[name]
-        without, looks = {key: fit_without(final, key) for key in kept}, _looks(self.trials)
-        return replace(
-            self,
-            final=final,
-            without=without,
-            trials=tuple(
-                replace(trial, outcome=why) if trial.kind.name == name else trial
-                for trial in self.trials
-            ),
-            support={
-                key: compare(rest, final, held_out).of_best(looks[key])
-                for key, rest in without.items()
-            },
-            alternatives={key: self.alternatives[key] for key in kept},
+        kept = [key for key in self.support if key != name]
+        trials = tuple(
+            replace(trial, outcome=why) if trial.kind.name == name else trial
+            for trial in self.trials
         )
+        alternatives = {key: self.alternatives[key] for key in kept}
+        less = replace(self, trials=trials, alternatives=alternatives)
+        return less._weighed(self.without[name], kept, held_out)
+
+    def fitted_anew(
+        self, base: Fit, recordings: Recordings, held_out: Sequence[Stretch]
+    ) -> 'Selection':
+        """Return the same structure, fitted to recordings that are taken otherwise.
+
+        base: the nominal fit to these.
+        """
+        final = refitted(on_recordings(self.final, recordings))
+        return replace(self, base=base)._weighed(final, list(self.support), held_out)
+
+    def stands(self, tried: int) -> bool:
+        """Say whether each effect, of so many that were tried, is beyond doubt."""
+        return all(judge_again(it, tried) == SUPPORTED for it in self.support.values())
+
+    def _weighed(
+        self, final: Fit, names: Sequence[str], held_out: Sequence[Stretch]
+    ) -> 'Selection':
+        """Return the selection with another fit of these effects, each weighed anew."""
+        without, looks = {name: fit_without(final, name) for name in names}, _looks(self.trials)
+        support = {
+            name: compare(rest, final, held_out).of_best(looks[name])
+            for name, rest in without.items()
+        }
+        return replace(self, final=final, without=without, support=support)
 
 
 class Tried(NamedTuple):
