@@ -12,8 +12,10 @@ from rehearsal import Surroundings, random_forces, rehearse
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.filtering import (
+    Filter,
     filter_behind,
     told_each_sample,
+    told_often,
     unfiltered,
 )
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
@@ -47,8 +49,16 @@ def test_what_was_filtered_comes_back(time_constant: float, seed: int) -> None:
     generator = np.random.default_rng(seed)
     time, twist = np.cumsum(generator.uniform(0.01, 0.1, 200)), generator.normal(size=(200, 2))
     run = Run('drive', Commands(time, twist), Odometry(time, twist, None))
-    back = unfiltered(filtered(run, time_constant), told_each_sample(time_constant, 0.05))
+    back = unfiltered(filtered(run, time_constant), Filter(time_constant, told_each_sample))
     assert back.odometry.twist == pytest.approx(twist, abs=1e-9)
+
+
+@pytest.mark.parametrize('interval', [0.01, 0.1])
+def test_filter_that_is_told_often_passes_means_over_a_runs_own_interval(interval: float) -> None:
+    time, still = interval * np.arange(50), np.zeros((50, 2))
+    run = Run('drive', Commands(time, still), Odometry(time, still, None))
+    age = time - unfiltered(run, Filter(0.5, told_often)).odometry.time
+    assert age == pytest.approx(0.5 * interval, rel=0.05)
 
 
 def test_filtered_twists_do_not_make_a_robot_late() -> None:

@@ -42,6 +42,10 @@ def test_forces_that_act_at_once_or_late_do_not_lead(effects: tuple[Effect, ...]
     assert lead_of(fitted(driven(*effects))) == 0.0
 
 
+def test_forces_that_are_stamped_far_too_late_lead_by_nobody_knows_how_much() -> None:
+    assert lead_of(fitted(acted_before(driven(), -0.15))) == 0.0
+
+
 def on_a_slope(late: float, done: list[str]) -> Identification:
     """Return what is found on a slope where forces are stamped late [s]; done: what was tried."""
     run = acted_before(driven(Slope(0.012, 0.008)), -late)

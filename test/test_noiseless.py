@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+from counting import counted
 from euler_robot import driven_by_euler
 from rehearsal import Surroundings, random_forces, rehearse
 
 from diffbot_sim.identification import identify
+from diffbot_sim.identification.recordings.lateness import timely
 from diffbot_sim.identification.recordings.noiseless import (
     is_noiseless,
     odometry_noise,
@@ -61,3 +63,11 @@ def test_encoders_are_not_without_noise() -> None:
     noise = odometry_noise(0.2)
     assert is_noiseless(ErrorNorm(1e-4, 1e-4), noise)
     assert not is_noiseless(ErrorNorm(1e-3, 1e-4), noise)
+
+
+def test_added_noise_is_not_taken_from_the_pose_again() -> None:
+    exact = Surroundings(v_noise=0.0, omega_noise=0.0)
+    run = counted(rehearse(Model(), random_forces(1, 60.0, -9.0, 11.0), exact, 1), 10)
+    noisy = with_noise(timely(run), odometry_noise(0.2))
+    assert timely(run) is not run
+    assert timely(noisy) is noisy

@@ -5,12 +5,18 @@ from typing import Any
 
 import numpy as np
 import pytest
-from fits import leaving
+from counting import counted, driven
+from fits import fitted, leaving, without_pose
 
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, UNIT, Fit
-from diffbot_sim.identification.older import Older, is_taken
-from diffbot_sim.identification.recordings.lateness import TWIST, of_interval_before
+from diffbot_sim.identification.older import Ages, Older, is_taken
+from diffbot_sim.identification.recordings.lateness import (
+    TWIST,
+    of_interval_before,
+    speed_of_interval_before,
+)
+from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.selection.evidence import delta_bic_beyond_past
 from diffbot_sim.identification.statistics.guards import VERY_STRONG
 from diffbot_sim.identification.statistics.memory import falls_beyond_past
@@ -56,3 +62,21 @@ def test_sums_of_counts_that_a_fit_left_to_chance_decide_nothing() -> None:
     second = first + 0.02 * np.sin(np.arange(len(first)) / 500.0)[:, None]
     assert np.all(falls_beyond_past(first, second) < -30.0)
     assert delta_bic_beyond_past(leaving(first), leaving(second)) > -VERY_STRONG
+
+
+def test_run_that_is_known_for_means_keeps_no_other_from_being_taken_so() -> None:
+    known, unsure = (counted(driven(Model(), seed), 1) for seed in (2, 4))
+    fit, _ = fitted(known)
+    both = Recordings((of_interval_before(known), without_pose(unsure)), ())
+    assert [it.what for it in Ages(fit, both).likely][:1] == ['twists']
+
+
+def test_run_whose_pose_denies_it_keeps_all_from_being_taken_for_means() -> None:
+    unsure, validate = without_pose(counted(driven(Model()), 1)), driven(Model(), 4)
+    fit, _ = fitted(unsure)
+    assert Ages(fit, Recordings((unsure,), (validate,))).likely == []
+
+
+def test_means_of_counts_beside_a_gyro_leave_counts_as_they_are() -> None:
+    known = of_interval_before(counted(driven(Model()), 1))
+    assert speed_of_interval_before(known).odometry.means == (True, True)

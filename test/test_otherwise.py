@@ -1,5 +1,7 @@
 """Held-out data in which a robot moves otherwise than where it was fitted."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from fits import ROUGH, SMOOTH, acted_otherwise, fitted
@@ -28,11 +30,20 @@ def test_force_that_sets_in_after_the_fit_is_noticed_and_measured() -> None:
     assert np.median(left.force) == pytest.approx(-1.2, abs=0.2)
 
 
+def test_force_that_sets_in_after_the_fit_of_one_run_of_three_is_that_runs() -> None:
+    fit, held_out = fitted(acted_otherwise(FORCES, FORCES.force))
+    _, others = fitted(acted_otherwise(FORCES, FORCES.force, seed=4))
+    _, caught = fitted(replace(acted_otherwise(FORCES, HELD_BACK), name='caught'))
+    left = moves_otherwise(fit, [*held_out, *caught, *others])
+    assert left is not None
+    assert 'of caught alone' in left.description
+
+
 def test_ripple_is_where_it_was_in_the_data_that_were_fitted() -> None:
     cogging = Model().with_effect(WheelRipple(order=3.0, right_cos=0.6, left_sin=0.6))
     drive = random_forces(5, 120.0, -9.0, 11.0)
     fit, held_out = fitted(rehearse(cogging, drive, SMOOTH, 5), cogging)
-    assert np.all(excess_of(fit, held_out) < 1.3)
+    assert np.all(excess_of(fit, held_out[0]) < 1.3)
 
 
 def test_nothing_is_not_said_to_be_missing_where_held_out_data_say_otherwise() -> None:

@@ -18,6 +18,7 @@ from diffbot_sim.identification.selection.trials import SUPPORTED, WORSENING, Tr
 from diffbot_sim.identification.simulating import WORSE, without_worsening
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects import Effect
+from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
 from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.physics.effects.wheel_ripple import WheelRipple
 from diffbot_sim.records import Run
@@ -34,14 +35,19 @@ def driven(*hidden: Effect) -> Run:
 @cache
 def held_against(named: Effect, *acting: Effect) -> Found:
     """Return an effect found where it acts, beside held-out data in which these act."""
-    plain, _ = fitted(driven(named))
+    return found_beside(named, driven(named), driven(*acting))
+
+
+def found_beside(named: Effect, run: Run, other: Run) -> Found:
+    """Return an effect found in a run, beside held-out data of another one."""
+    plain, _ = fitted(run)
     space = Space(Model(), (type(named),))
     start = np.concatenate([plain.u, point_of(type(named), named.values)])
     fit = fit_prediction(space, plain.stretches, start, FIRST_GAINS)
     trial, name = Trial(type(named), fit, SURE, SUPPORTED), named.name
     selection = Selection(plain, fit, (trial,), {name: plain}, {name: SURE}, {name: ()})
-    _, held_out = fitted(driven(*acting))
-    recordings, left = Recordings((driven(named),), ()), by_hand.unexplained().unexplained
+    _, held_out = fitted(other)
+    recordings, left = Recordings((run,), ()), by_hand.unexplained().unexplained
     return Found(recordings, held_out, plain, selection, selection, left)
 
 
@@ -67,6 +73,15 @@ def test_ripple_that_gets_out_of_step_stays() -> None:
     fits = found.selection.final, found.selection.base
     named, without = (free_running_error(fit.model, found.held_out) for fit in fits)
     assert np.max(named / without) > WORSE
+    assert without_worsening(found) is found
+
+
+def test_name_of_a_robot_that_never_turns_stays() -> None:
+    forces = random_forces(1, 40.0, -9.0, 11.0)
+    straight = replace(forces, force=forces.force[:, :1].repeat(2, axis=1))
+    drag, around = QuadraticDrag(2.0), replace(SMOOTH, omega_noise=0.0)
+    run = rehearse(Model(effects=(drag,)), straight, around, 1)
+    found = found_beside(drag, run, run)
     assert without_worsening(found) is found
 
 

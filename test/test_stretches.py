@@ -57,3 +57,10 @@ def test_what_is_slow_enough_stays_as_it_is():
     time = np.arange(0.0, 2.0, 0.01)
     run = run_with(time, np.ones((len(time), 2)))
     assert thin(run) is run
+
+
+def test_pause_that_is_longer_than_the_drive_takes_no_command():
+    drive = np.arange(0.0, 2.0, 0.01)
+    time = np.concatenate([drive, 100.0 + drive])
+    run = run_with(time, np.ones((len(time), 2)))
+    assert thin(run) is run

@@ -15,7 +15,11 @@ from diffbot_sim.identification.free_forms.bases import Basis
 from diffbot_sim.identification.free_forms.caster import swivelled
 from diffbot_sim.identification.free_forms.forms import Growth, Spans
 from diffbot_sim.identification.free_forms.past import PAST
-from diffbot_sim.identification.free_forms.quantities import share_of_turning, turning_of_wheels
+from diffbot_sim.identification.free_forms.quantities import (
+    share_of_force,
+    share_of_turning,
+    turning_of_wheels,
+)
 from diffbot_sim.identification.free_forms.starting import START, rest_before, started
 from diffbot_sim.identification.free_forms.swinging import swung
 from diffbot_sim.identification.free_forms.turning_back import rolled_since, turned_since
@@ -33,6 +37,14 @@ def view() -> View:
     space = Space(Model(), ())
     fit = Fit(space, (stretch,), space.prior(), FIRST_GAINS, np.ones(2))
     return View(fit, stretch, predictions(fit, [stretch])[0])
+
+
+def test_share_of_the_force_is_of_the_same_one_wherever_it_is_told(view: View) -> None:
+    run = view.stretch.run
+    weaker = replace(run, commands=replace(run.commands, force=0.5 * run.commands.force))
+    elsewhere = replace(view, stretch=whole([weaker])[0])
+    assert np.abs(share_of_force(view)).max() == pytest.approx(1.0, abs=0.01)
+    np.testing.assert_allclose(share_of_force(elsewhere), 0.5 * share_of_force(view))
 
 
 @pytest.mark.parametrize(

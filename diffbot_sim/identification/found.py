@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.recordings.lateness import half_interval, timing
+from diffbot_sim.identification.recordings.lateness import half_interval, timely, timing
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure, Timing
@@ -29,7 +29,7 @@ class Found:
     another form than declared, which is allowed for, lowers the deviance; time_constant [s]: of
     the filter of their twists that was undone, 0 if none was; undecided: whether twists may be
     older than their stamps; lead [s]: by how much forces were taken to act before theirs;
-    noisy: the recordings as they were given, with noise added, if they had none; None if they had;
+    noisy: the recordings, timely, with noise added, if they had none; None if they had;
     aside: the runs that were set aside, and which effects each has that the others deny.
     """
 
@@ -72,7 +72,6 @@ class Found:
 
     def timings(self, given: Recordings) -> tuple[Timing, ...]:
         """Return how recordings were taken otherwise than they had been given, but for noise."""
-        given = self.noisy or given
         leads = (Timing(run.name, self.lead, 'force') for run in given.all if self.lead > 0.0)
         return (*self._of_twists(given), *leads)
 
@@ -81,4 +80,7 @@ class Found:
             return (Timing(run.name, self.time_constant, 'filter') for run in given.all)
         if self.undecided:
             return (Timing(run.name, half_interval(run), 'undecided') for run in given.all)
-        return filter(None, map(timing, given.all, self.recordings.all))
+        if self.noisy is None:
+            return filter(None, map(timing, given.all, self.recordings.all))
+        before = map(timing, given.all, given.each(timely).all)
+        return filter(None, [*before, *map(timing, self.noisy.all, self.recordings.all)])

@@ -15,8 +15,8 @@ from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.statistics.guards import VERY_STRONG
 from diffbot_sim.identification.statistics.minimisation import flatter
 
-# The longest lead [s], by how little it is moved to see what that does, and how closely it is
-# looked for.
+# What leads by so long [s] is no matter of stamps; by how little a lead is moved to see what that
+# does, and how closely it is looked for.
 LONGEST, NUDGE, CLOSELY = 0.1, 5e-4, 1e-4
 ROUNDS = 5
 # A lead that promises less than this share of what it must explain is not looked for.
@@ -29,16 +29,16 @@ def lead_of(fit: Fit) -> float:
     promised, step = _step(fit)
     if step <= 0.0 or promised < HOPEFUL * least:
         return 0.0
-    lead, led = min(step, LONGEST), fit
+    lead, led = 0.0, fit
     for _ in range(ROUNDS):
-        led = led_by(fit, lead)
-        _, step = _step(led)
-        lead = min(lead + step, LONGEST)
-        if lead <= 0.0:
+        ahead = min(lead + step, LONGEST)
+        if ahead <= 0.0:
             return 0.0
-        if abs(step) < CLOSELY:
+        if abs(ahead - lead) < CLOSELY:
             break
-    return lead if likelihood_ratio(fit, led) > least else 0.0
+        lead, led = ahead, led_by(fit, ahead)
+        _, step = _step(led)
+    return lead if lead < LONGEST and likelihood_ratio(fit, led) > least else 0.0
 
 
 def led_by(fit: Fit, lead: float) -> Fit:

@@ -35,6 +35,7 @@ from diffbot_sim.identification.selection.evidence import (
 )
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.statistics.guards import VERY_STRONG
+from diffbot_sim.identification.statistics.parallel import side_by_side
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Run
 
@@ -122,18 +123,23 @@ class Ages:
         return {
             older: on_recordings(self._final, self._recordings.each(older.taken))
             for older in OLDER
-            if all(pose_allows_lag(run, older.of) for run in self._recordings.kept)
+            if self._is_allowed(older)
         }
+
+    def _is_allowed(self, older: Older) -> bool:
+        """Say whether poses allow it of all that are not means beyond doubt, if any are not."""
+        unsure = [run for run in self._recordings.all if not all(run.odometry.means)]
+        return bool(unsure) and all(pose_allows_lag(run, older.of) for run in unsure)
 
     @cached_property
     def _less_late(self) -> dict[Older, Fit]:
         """The same, less what makes a robot late."""
-        return {older: _timely(fit) for older, fit in self._taken.items()}
+        return dict(zip(self._taken, side_by_side(_timely, self._taken.values()), strict=True))
 
     @cached_property
     def _again(self) -> dict[Older, Fit]:
         """The structure as it was found, fitted again."""
-        return {older: refitted(fit) for older, fit in self._taken.items()}
+        return dict(zip(self._taken, side_by_side(refitted, self._taken.values()), strict=True))
 
 
 def is_taken(older: Older, first: Fit, second: Fit, unexplained: float) -> bool:
@@ -217,7 +223,5 @@ def _lateness(fit: Fit) -> float:
 
 def _timely(fit: Fit) -> Fit:
     """Fit a structure again, less what makes a robot late."""
-    for kind in fit.space.kinds:
-        if kind.name in LATE_EFFECTS:
-            fit = fit_without(fit, kind.name)
-    return fit
+    present = {kind.name for kind in fit.space.kinds}
+    return fit_without(fit, *present.intersection(LATE_EFFECTS))

@@ -10,12 +10,11 @@ from diffbot_sim.identification.contradiction import (
     resized,
     with_general_law,
 )
-from diffbot_sim.identification.finding import Question, recalibrated
+from diffbot_sim.identification.finding import Question, fitted_and_held_out, recalibrated
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.wiring import fault_of
 from diffbot_sim.identification.following import moved_as_if
 from diffbot_sim.identification.found import Found
-from diffbot_sim.identification.recordings.checks import check
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.result import LAW
 from diffbot_sim.identification.search import search
@@ -28,7 +27,7 @@ def searched(recordings: Recordings, question: Question) -> tuple[Found, tuple[s
     What is wired otherwise than it is told is no matter of effects: then none is looked for.
     Raises DataError where nothing follows from the recordings.
     """
-    check(*recordings.divided)
+    fitted_and_held_out(recordings)
     question.progress('looking at sides, signs, units and clocks')
     fault = fault_of(recordings, Space(question.declared, ()))
     if fault:

@@ -1,6 +1,5 @@
 """The search: from recordings and a declared model to a structure that explains them."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -16,14 +15,11 @@ from diffbot_sim.identification.found import Found
 from diffbot_sim.identification.free_forms.otherwise import moves_otherwise
 from diffbot_sim.identification.later import sets_in_later
 from diffbot_sim.identification.odd_ones import denied_by, odd_among
-from diffbot_sim.identification.recordings.noiseless import (
-    odometry_noise,
-    with_noise,
-)
+from diffbot_sim.identification.recordings.lateness import timely
+from diffbot_sim.identification.recordings.noiseless import odometry_noise, with_noise
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.retimed import allowing_a_lead, timed
 from diffbot_sim.identification.simulating import is_integrators, without_worsening
-from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Run
 
 
@@ -44,7 +40,8 @@ def search(recordings: Recordings, question: Question) -> Found:
     if not is_integrators(found, noise):
         return found
     question.progress('adding the noise of a good odometry')
-    noisy = recordings.each(partial(with_noise, noise=noise))
+    # What is taken from a pose would be so again, and leave the noise behind.
+    noisy = recordings.each(timely).each(partial(with_noise, noise=noise))
     return replace(_answered(noisy, question), noisy=noisy)
 
 
@@ -84,7 +81,7 @@ def _asked(recordings: Recordings, question: Question) -> Found:
 
 def _begun_later(found: Found, question: Question) -> Found:
     """Search again with less held out, where something seems to begin in that alone."""
-    if not _begins_later(found, question.kinds):
+    if not _begins_later(found, question):
         return found
     question.progress('holding out less, since something begins there')
     less = found.recordings.less_held_out
@@ -94,10 +91,10 @@ def _begun_later(found: Found, question: Question) -> Found:
     return other.timed_like(found)
 
 
-def _begins_later(found: Found, kinds: Sequence[type[Effect]]) -> bool:
+def _begins_later(found: Found, question: Question) -> bool:
     final = found.selection.final
     if found.recordings.validate or not found.recordings.allow_less_held_out:
         return False
     if found.unexplained is not None:
         return moves_otherwise(final, found.held_out) is not None
-    return sets_in_later(final, found.recordings, kinds)
+    return sets_in_later(final, found.recordings, question.kinds, question.progress)

@@ -13,7 +13,11 @@ from diffbot_sim.identification.fitting.calibration import (
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import Fit, fit_simulation
 from diffbot_sim.identification.found import Found
-from diffbot_sim.identification.recordings.free_running import free_running_error, run_free
+from diffbot_sim.identification.recordings.free_running import (
+    NOTHING,
+    free_running_error,
+    run_free,
+)
 from diffbot_sim.identification.recordings.noiseless import is_noiseless
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
@@ -101,4 +105,5 @@ def _held_out_errors(found: Found, fit: Fit) -> Array:
     simulated = _simulating(fit.space, found.recalibrated.stretches, fit.u) or fit
     begun = restarted(simulated.model, found.held_out)
     in_step = simulation_errors(simulated.space, begun, simulated.u)
-    return np.array([free_running_error(simulated.model, found.held_out), rms_of_each(in_step)])
+    free = free_running_error(simulated.model, found.held_out)
+    return np.array([free, np.maximum(rms_of_each(in_step), NOTHING)])

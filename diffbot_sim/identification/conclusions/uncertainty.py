@@ -72,7 +72,7 @@ def _free(fit: Fit) -> NDArray[np.intp]:
 
 def _lasting(fit: Fit, spread: Array) -> float:
     """Return how many times as uncertain all is, in the median, as by independent errors."""
-    slopes = fit.jacobian[..., : len(fit.u)].reshape(fit.whitened.size, -1)
+    slopes = fit.slopes[:, : len(fit.u)]
     known = slopes.T @ slopes + np.diag(fit.prior_information[: len(fit.u)])
     return max(1.0, float(np.median(np.diag(spread) / np.diag(np.linalg.inv(known)))))
 
@@ -116,8 +116,7 @@ class _Profile:
     def __init__(self, fit: Fit, index: int, lasting: float) -> None:
         self._fit, self._index, self._known, self._lasting = fit, index, [fit], lasting
         self._others = np.delete(_free(fit), index)
-        slopes = fit.jacobian[..., self._others].reshape(fit.whitened.size, -1)
-        self._shift = -np.linalg.pinv(slopes, rcond=1e-8)
+        self._shift = -np.linalg.pinv(fit.slopes[:, self._others], rcond=1e-8)
 
     def rise(self, value: float) -> float:
         """Return by how much the deviance is higher than at the fit."""

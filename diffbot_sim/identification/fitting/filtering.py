@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import product
 from math import exp, inf, log
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -17,6 +18,7 @@ from scipy.special import exprel
 
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
+from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.recordings.lateness import (
     LATE,
     LATE_EFFECTS,
@@ -34,41 +36,48 @@ from diffbot_sim.records import Array, Run
 WITHIN, CLOSELY, LOOKS = 4.0, 0.02, 12
 
 
-class Filter(NamedTuple):
-    """A first-order filter of twists: its time constant [s], and how old what it is given is [s].
+# How old [s] what a filter of a time constant is given is, at an interval of the odometry.
+Age = Callable[[float, float], float]
 
-    A filter that is told each sample is told how the robot moves then. One that is told more often
-    passes a mean over the interval, in which the latest counts most.
+
+def told_each_sample(time_constant: float, interval: float) -> float:
+    """Return the age of what a filter is told that is told each sample: of that moment."""
+    return 0.0
+
+
+def told_often(time_constant: float, interval: float) -> float:
+    """Return the age of what a filter is told that is told much more often than the odometry.
+
+    It passes a mean over the interval, in which the latest counts most.
+    """
+    return time_constant * (1.0 - 1.0 / float(exprel(interval / time_constant)))
+
+
+AGES: tuple[Age, ...] = (told_each_sample, told_often)
+
+
+class Filter(NamedTuple):
+    """A first-order filter of twists: its time constant [s], and how old what it is told is.
+
     worth: by how much it lowers -2 log-likelihood in place of an effect.
     """
 
     time_constant: float
-    age: float
+    age: Age
     worth: float = 0.0
 
-
-Kind = Callable[[float, float], Filter]
-
-
-def told_each_sample(time_constant: float, interval: float) -> Filter:
-    """Return a filter that is told what the odometry tells."""
-    return Filter(time_constant, 0.0)
-
-
-def told_often(time_constant: float, interval: float) -> Filter:
-    """Return a filter that is told much more often than the odometry tells."""
-    share = 1.0 - 1.0 / float(exprel(interval / time_constant))
-    return Filter(time_constant, share * time_constant)
-
-
-KINDS: tuple[Kind, ...] = (told_each_sample, told_often)
+    def undone(self, time: Array, twist: Array) -> tuple[Array, Array]:
+        """Return the stamps and twists that it was given; the first sample as it is."""
+        passed = _passed(time, self.time_constant)[:, None]
+        given = np.vstack([twist[:1], twist[:-1] + np.diff(twist, axis=0) / passed])
+        return time - self.age(self.time_constant, median_interval(time)), given
 
 
 def unfiltered(run: Run, behind: Filter) -> Run:
     """Return a run whose twists, and their stamps, are those that a filter was given."""
     seen = run.odometry
-    twist = _undone(seen.time, seen.twist, behind.time_constant)
-    return replace(run, odometry=replace(seen, time=seen.time - behind.age, twist=twist))
+    time, twist = behind.undone(seen.time, seen.twist)
+    return replace(run, odometry=replace(seen, time=time, twist=twist))
 
 
 def filter_behind(fit: Fit) -> Filter | None:
@@ -86,10 +95,10 @@ def filter_behind(fit: Fit) -> Filter | None:
         return None
     values = fit.space.values(fit.u)
     late = [(e, values.get(name, 0.0)) for name, e in zip(LATE, LATE_EFFECTS, strict=True)]
-    looks = [_Look(fit, e, near, kind) for (e, near), kind in product(late, KINDS) if near > 0.0]
+    looks = [_Look(fit, e, near, age) for (e, near), age in product(late, AGES) if near > 0.0]
     cost = _cost(fit)
     found = [look.best() for look in looks if look.cost(look.near) <= cost + look.allowed]
-    least, behind = min(found, default=(inf, None))
+    least, behind = min(found, key=itemgetter(0), default=(inf, None))
     if behind is None or least >= _cost_of_colour(fit) + VERY_STRONG:
         return None
     if least >= _cost_of_lag(fit, behind.time_constant):
@@ -99,28 +108,25 @@ def filter_behind(fit: Fit) -> Filter | None:
 
 @dataclass(frozen=True)
 class _Look:
-    """A kind of filter that may take the place of an effect; near [s]: how late that is."""
+    """A filter that may take the place of an effect; near [s]: how late that is."""
 
     fit: Fit
     effect: str
     near: float
-    kind: Kind
+    age: Age
 
     @property
     def allowed(self) -> float:
         """How much higher the cost may be: what is late by less than an interval is odometry."""
         stretches = self.fit.stretches
-        if self.near >= stretches[0].interval:
+        if self.near >= min(stretch.interval for stretch in stretches):
             return -VERY_STRONG
         denied = any(pose_denies_lag(stretch.run, self.near) for stretch in stretches)
         return -VERY_STRONG if denied else VERY_STRONG
 
-    def filter(self, time_constant: float) -> Filter:
-        return self.kind(time_constant, self.fit.stretches[0].interval)
-
     def cost(self, time_constant: float) -> float:
         """Return -2 log-likelihood with a filter of this time constant."""
-        return _cost_before(self.fit, self.effect, self.filter(time_constant))
+        return _cost_before(self.fit, self.effect, Filter(time_constant, self.age))
 
     def best(self) -> tuple[float, Filter]:
         """Return the lowest cost, and the filter that has it."""
@@ -130,7 +136,7 @@ class _Look:
             method='bounded',
             options={'xatol': CLOSELY, 'maxiter': LOOKS},
         )
-        return float(found.fun), self.filter(exp(found.x))
+        return float(found.fun), Filter(exp(found.x), self.age)
 
 
 def _cost_before(fit: Fit, effect: str, behind: Filter) -> float:
@@ -169,14 +175,8 @@ def _cost(fit: Fit) -> float:
 
 
 def _before(stretch: Stretch, behind: Filter) -> Stretch:
-    twist = _undone(stretch.time, stretch.twist, behind.time_constant)
-    return replace(stretch, time=stretch.time - behind.age, twist=twist)
-
-
-def _undone(time: Array, twist: Array, time_constant: float) -> Array:
-    """Return what a first-order filter was given; the first sample as it is."""
-    passed = _passed(time, time_constant)[:, None]
-    return np.vstack([twist[:1], twist[:-1] + np.diff(twist, axis=0) / passed])
+    time, twist = behind.undone(stretch.time, stretch.twist)
+    return replace(stretch, time=time, twist=twist)
 
 
 def _passed(time: Array, time_constant: float) -> Array:

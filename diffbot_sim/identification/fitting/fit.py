@@ -63,7 +63,7 @@ class Fit:
         """Return the same innovations over another scale."""
         return np.asarray(self.whitened * (self.sigma / sigma))
 
-    def counted(self, errors: Sequence[Array]) -> Array:
+    def whiten(self, errors: Sequence[Array]) -> Array:
         """Return what counts of errors on each stretch, (k, 2, q), over sigma, (n, 2, q)."""
         pairs = zip(errors, self.stretches, strict=True)
         rows = [of_stretch[stretch.used] for of_stretch, stretch in pairs]

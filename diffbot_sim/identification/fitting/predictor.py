@@ -74,7 +74,7 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
     commands = scheduled(model, stretch.run.commands, start)
     states = initial_states(model, commands, start)
     out, snapshots = np.zeros((count, 6)), np.empty((count, snapshot_size(states)))
-    counting = counted(stretch, gains)
+    counting = heard(stretch, gains)
     _predict(
         *compose(model.kinds),
         model.pack(),
@@ -107,7 +107,7 @@ def at_end(stretch: Stretch) -> Array:
     return 1.0 + np.array(stretch.run.odometry.means, dtype=float)
 
 
-def counted(stretch: Stretch, gains: Array) -> Unheard:
+def heard(stretch: Stretch, gains: Array) -> Unheard:
     """Return how the errors of a stretch count: where nothing corrects a model, all alike."""
     return stretch.unheard if np.any(gains) else all_heard(len(stretch.time))
 

@@ -16,7 +16,7 @@ from diffbot_sim.identification.fitting.predictor import (
     MEMORY,
     SPEED,
     at_end,
-    counted,
+    heard,
 )
 from diffbot_sim.identification.fitting.steps import Steps
 from diffbot_sim.identification.recordings.stretches import Stretch, largest_command
@@ -86,7 +86,7 @@ def response(model: Model, stretch: Stretch, gains: Array, force: float) -> Resp
     slopes = np.stack([steps.slope(by) for by in np.diag(sizes)], axis=-1)
     intervals = np.diff(stretch.time, prepend=stretch.time[0] - stretch.interval)[:, None]
     gain = gains[DISTURBANCE] * at_end(stretch) * body / intervals
-    counting = counted(stretch, gains)
+    counting = heard(stretch, gains)
     taken = counting.taken(gains[SPEED] * at_end(stretch))
     return Response(slopes, counting.weight, taken, gain, gains[MEMORY] ** intervals)
 

@@ -3,7 +3,7 @@
 In the moment at which an effect sets in the error is a staircase with hollows, too.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import product
 
@@ -33,16 +33,21 @@ LOWER, ROUNDS = 1.0, 4
 
 def shaken(fit: Fit) -> Fit:
     """Fit again from other noise models, then from points beside while that leads lower."""
-    for gains in (FIRST_GAINS, QUICK_GAINS):
-        fit = _lower_of(fit, fit_prediction(fit.space, fit.stretches, fit.u, gains))
+    again = partial(fit_prediction, fit.space, fit.stretches, fit.u)
+    fit = _lower_of(fit, _lowest(fit, side_by_side(again, (FIRST_GAINS, QUICK_GAINS))))
     for _ in range(ROUNDS):
         nearby = side_by_side(partial(_approach, fit), _beside(fit))
-        near = min(nearby, key=lambda end: end.deviance(fit.sigma), default=fit)
+        near = _lowest(fit, nearby)
         end = _lower_of(fit, fit_prediction(fit.space, fit.stretches, near.u, fit.gains))
         if end is fit:
             break
         fit = end
     return fit
+
+
+def _lowest(fit: Fit, ends: Sequence[Fit]) -> Fit:
+    """Return the lowest of the ends of a fit, the fit itself where there is none."""
+    return min(ends, key=lambda end: end.deviance(fit.sigma), default=fit)
 
 
 def _lower_of(fit: Fit, end: Fit) -> Fit:

@@ -9,8 +9,11 @@ import numpy as np
 from diffbot_sim.identification.fitting.fit import Fit, predictions
 from diffbot_sim.identification.fitting.predictor import NO_GAIN, Prediction, predict
 from diffbot_sim.identification.recordings.acting import added_up
-from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.recordings.stretches import Stretch, largest_command
 from diffbot_sim.records import Array
+
+# A force [N] that is as good as none.
+NO_FORCE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,11 @@ class View:
     def innovation(self) -> Array:
         """Errors of the prediction in v and ω, 0 where they do not count, shape (k, 2)."""
         return self.prediction.innovation * self.stretch.used[:, None]
+
+    @property
+    def largest_force(self) -> float:
+        """The largest force commanded where the fit was made [N], of held-out data the same."""
+        return max(largest_command(self.fit.stretches), NO_FORCE)
 
     @property
     def mix(self) -> Array:

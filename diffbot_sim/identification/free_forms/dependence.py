@@ -176,7 +176,7 @@ def sensitivity(screen: Screen, basis: Basis) -> Array:
     for index, response in enumerate(screen.responses):
         pushes = [basis.push(index, function) for function in range(basis.size)]
         errors.append(response.errors(np.stack(pushes, axis=-1)))
-    return screen.fit.counted(errors)
+    return screen.fit.whiten(errors)
 
 
 def by_worth(dependences: Iterable[Dependence], fit: Fit) -> list[Dependence]:

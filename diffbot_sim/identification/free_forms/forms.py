@@ -17,6 +17,8 @@ KNOTS, BENT_KNOTS, FEW_KNOTS, FINE_KNOTS = (2, 6), (3, 6), (2, 4), (2, 6, 20)
 GROWTH_KNOTS = (2, 3, 6)
 # What is switched on and off in the course of a run shows in many only.
 SWITCHED_KNOTS = (*GROWTH_KNOTS, 20)
+# Points by which one turn of an angle is drawn.
+TURN_POINTS = 25
 
 # What a variable is at every sample, shape (k,) or (k, 2).
 Of = Callable[[View], Array]
@@ -158,12 +160,11 @@ class TwoSided:
     """Piecewise linear on both sides of zero, where it may jump; nothing at zero itself."""
 
     of: Of
-    counts: tuple[int, ...] = BENT_KNOTS
     looked_at: ClassVar[int] = 1
 
     def grids(self, views: Sequence[View]) -> list[Array]:
         """Return distinct knots of the size, the same for both sides."""
-        return Piecewise(lambda view: np.abs(self.of(view)), counts=self.counts).grids(views)
+        return Piecewise(lambda view: np.abs(self.of(view)), counts=BENT_KNOTS).grids(views)
 
     def columns(self, view: View, knots: Array) -> Array:
         """Evaluate hats along a stretch, the negative side first."""
@@ -245,7 +246,6 @@ class Periodic:
     of: Of
     waves: Waves = lambda seen: [(1.0, 2.0)]
     looked_at: int = 1
-    points: int = 25
     weights: Of = lambda view: np.ones((1, 1))
 
     def grids(self, views: Sequence[View]) -> list[Array]:
@@ -261,7 +261,7 @@ class Periodic:
 
     def curve(self, rates: Array) -> tuple[Array, Array]:
         """Return angles of one turn, and the functions of the body or one wheel there."""
-        angle = np.linspace(-np.pi, np.pi, self.points)
+        angle = np.linspace(-np.pi, np.pi, TURN_POINTS)
         return angle, _waves(angle[:, None], rates / rates[0])[..., 0]
 
 

@@ -10,6 +10,7 @@ friction does, as a brake, is told.
 """
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
@@ -25,6 +26,7 @@ from diffbot_sim.identification.free_forms.dependence import (
 from diffbot_sim.identification.free_forms.variables import ALLOWED_FOR, ALLOWED_FOR_TURNING
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.screening import Screen
+from diffbot_sim.identification.statistics.parallel import side_by_side
 from diffbot_sim.physics.effects.yaw_friction import YawFriction
 
 Stretches = tuple[Stretch, ...]
@@ -51,7 +53,7 @@ def eased(fit: Fit, held_out: Sequence[Stretch]) -> tuple[Fit, Stretches]:
 def _eased_once(fit: Fit, held_out: Stretches) -> tuple[Fit, Stretches] | None:
     screen = Screen(fit)
     tried = (explained_by(screen, b) for b in bases(fit, fit.stretches, _allowed_for(fit)))
-    friction = best_against_the_model(fit, (realised(fit, dependence) for dependence in tried))
+    friction = best_against_the_model(fit, side_by_side(partial(realised, fit), tried))
     if worth_of(friction, fit) <= 0.0:
         return None
 

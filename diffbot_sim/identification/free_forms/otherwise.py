@@ -23,7 +23,7 @@ from diffbot_sim.identification.statistics.norms import rms
 from diffbot_sim.identification.statistics.robust import huber
 from diffbot_sim.records import Array
 
-# Parts of the held-out data; of the fitted ones, parts as long as these are held against them.
+# Parts of what is held out of a run; fitted parts as long as these are held against them.
 PARTS = 5
 # Errors that weigh so many times what they do in the worst fitted part are of something else.
 MUCH = 2.0
@@ -37,11 +37,11 @@ def moves_otherwise(fit: Fit, held_out: Sequence[Stretch]) -> Structure | None:
     Told of the run that it acts in most.
     """
     begun = restarted(fit.model, held_out)
-    excess = excess_of(fit, begun)
-    axis = int(np.argmax(excess))
-    if excess[axis] <= MUCH:
+    excess = np.array([excess_of(fit, stretch) for stretch in begun])
+    index, axis = map(int, np.unravel_index(excess.argmax(), excess.shape))
+    if excess[index, axis] <= MUCH:
         return None
-    most = max(begun, key=lambda stretch: float(excess_of(fit, (stretch,))[axis]))
+    most = begun[index]
     whose = f' of {most.run.name}' if len(begun) > 1 else ''
     words = (
         f'that acts in the held-out data{whose} alone, not where the model was fitted, and that '
@@ -50,9 +50,9 @@ def moves_otherwise(fit: Fit, held_out: Sequence[Stretch]) -> Structure | None:
     return force_over_time(fit, most, axis, words)
 
 
-def excess_of(fit: Fit, held_out: Sequence[Stretch]) -> Array:
+def excess_of(fit: Fit, stretch: Stretch) -> Array:
     """Return how many times more errors weigh than in the worst fitted part, for v and ω."""
-    there = huber(whitened(held_out, fit.model, fit.gains, fit.sigma))
+    there = huber(whitened((stretch,), fit.model, fit.gains, fit.sigma))
     here = huber(fit.whitened)
     usual = _weights(here, max(1, len(here) * PARTS // len(there)))
     # Errors of their scale weigh 1: where they are less, none is of something else.

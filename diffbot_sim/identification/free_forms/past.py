@@ -8,7 +8,6 @@ from typing import ClassVar
 import numpy as np
 
 from diffbot_sim.identification.fitting.views import View
-from diffbot_sim.identification.recordings.stretches import largest_command
 from diffbot_sim.records import Array
 
 # Edges of the spans in which the past of a command is averaged [s].
@@ -29,7 +28,7 @@ class Past:
     def columns(self, view: View, edges: Array) -> Array:
         """Return mean commands of each span, over the largest command."""
         spans = [view.past_force(*span) for span in pairwise(edges)]
-        return np.stack(spans, axis=1) / _most(view)
+        return np.stack(spans, axis=1) / view.largest_force
 
     def curve(self, edges: Array) -> tuple[Array, Array]:
         """Return the middles of the spans and the functions there."""
@@ -45,11 +44,6 @@ class Changes(Past):
 
     def columns(self, view: View, edges: Array) -> Array:
         """Return signed squares of changes since each span, over the largest command."""
-        now = view.force[:, None] / _most(view)
+        now = view.force[:, None] / view.largest_force
         changes = now - super().columns(view, edges)
         return np.asarray(changes * np.abs(changes))
-
-
-def _most(view: View) -> float:
-    """Return the largest command of a stretch's run [N], if there is any."""
-    return max(largest_command([view.stretch]), 1e-9)

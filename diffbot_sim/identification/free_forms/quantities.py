@@ -68,7 +68,7 @@ def others_force(view: View) -> Array:
 
 def share_of_force(view: View) -> Array:
     """Return each wheel's commanded force over the largest one."""
-    return np.asarray(view.force / max(float(np.abs(view.force).max()), 1e-9))
+    return np.asarray(view.force / view.largest_force)
 
 
 def along(index: int) -> Of:

@@ -1,6 +1,7 @@
 """Structure that no effect accounts for: a force that depends on something, whatever its law."""
 
 from collections.abc import Sequence
+from functools import partial
 from math import inf, isinf
 
 import numpy as np
@@ -36,6 +37,7 @@ from diffbot_sim.identification.statistics.guards import (
     least_worth,
     may_be_chance,
 )
+from diffbot_sim.identification.statistics.parallel import side_by_side
 from diffbot_sim.identification.statistics.robust import huber
 
 # How many of the dependences are put to the test.
@@ -66,7 +68,7 @@ def find_dependences(
     fit, tried = screen.fit, dependences(screen)
     # First order promises too little on a rough floor: how many were tried counts after the fit.
     promising = [d for d in tried if not is_chance(d.p_value, 1)]
-    fitted = [realised(fit, d) for d in _best_of_each(promising)[:FOLLOWED]]
+    fitted = side_by_side(partial(realised, fit), _best_of_each(promising)[:FOLLOWED])
     found = list[Dependence]()
     for dependence in by_worth(fitted, fit):
         # What is fair takes worth away: what is behind before that is behind for ever.

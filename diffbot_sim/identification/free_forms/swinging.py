@@ -29,13 +29,12 @@ class Swinging:
     """What swings at a rate, driven by the changes of a speed: its cosine and its sine part."""
 
     of: Callable[[View], Array]
-    rates: tuple[float, ...] = RATES
     looked_at: ClassVar[int] = 1
 
     def grids(self, views: Sequence[View]) -> list[Array]:
         """Return each rate [Hz]."""
         del views
-        return [np.array([rate]) for rate in self.rates]
+        return [np.array([rate]) for rate in RATES]
 
     def columns(self, view: View, rate: Array) -> Array:
         """Evaluate both parts along a stretch, at whose start nothing swings."""

@@ -10,6 +10,8 @@ def median_interval(time: Array) -> float:
     return float(np.median(np.diff(time))) if len(time) > 1 else 1.0
 
 
-def mean_interval(time: Array) -> float:
-    """Return the mean time between stamps [s]: unlike the median it bears stamps in twos."""
-    return float(time[-1] - time[0]) / (len(time) - 1) if len(time) > 1 else 1.0
+def usual_interval(time: Array) -> float:
+    """Return the usual time between stamps [s], which bears pauses as well as stamps in twos."""
+    if len(time) < 3:
+        return median_interval(time)
+    return 0.5 * float(np.median(time[2:] - time[:-2]))

@@ -135,14 +135,12 @@ def of_interval_before(run: Run) -> Run:
 
 def speed_of_interval_before(run: Run) -> Run:
     """Return a run whose speed alone is taken for that, its turn rate for a gyro's."""
-    return replace(run, odometry=replace(run.odometry, means=(True, False)))
+    return replace(run, odometry=replace(run.odometry, means=(True, run.odometry.means[1])))
 
 
 def pose_allows_lag(run: Run, of: Components) -> bool:
     """Say whether a twist may be a mean since the sample before: its pose would tell if not."""
     seen = run.odometry
-    if all(seen.means):
-        return False
     path = _telling_path(seen)
     return path is None or not _is_less_late(seen, path, of, half_interval(run))
 

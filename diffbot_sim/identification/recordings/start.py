@@ -8,6 +8,7 @@ from scipy.optimize import least_squares
 
 from diffbot_sim.identification.recordings.measurement import simulated
 from diffbot_sim.identification.recordings.stretches import FEW, Stretch
+from diffbot_sim.identification.statistics.norms import white_noise
 from diffbot_sim.identification.statistics.robust import HUBER, huber
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.state import State
@@ -17,6 +18,8 @@ WINDOW = 1.0
 # Longest integration step while models are fitted [s]; fourth order keeps its error far below any
 # odometry's noise.
 PREDICTION_STEP = 0.02
+# Noise [m/s, rad/s] that is as good as none.
+NO_NOISE = 1e-9
 # A robot that may well have been at rest was: chance alone lets two speeds explain so much.
 REST = 9.0
 
@@ -32,7 +35,7 @@ def start_of(model: Model, stretch: Stretch, max_step: float) -> State:
         return first
     count = max(10, int(np.searchsorted(stretch.time, stretch.time[0] + WINDOW)))
     time, twist = stretch.time[:count], stretch.twist[:count]
-    noise = np.std(np.diff(twist, n=2, axis=0), axis=0) / np.sqrt(6.0) + 1e-9
+    noise = white_noise(twist) + NO_NOISE
 
     def errors(twist_at_start: Array) -> Array:
         start = replace(first, v=float(twist_at_start[0]), omega=float(twist_at_start[1]))

@@ -8,9 +8,10 @@ from numpy.typing import NDArray
 
 from diffbot_sim.errors import DataError
 from diffbot_sim.identification.recordings.acting import added_up
-from diffbot_sim.identification.recordings.intervals import mean_interval, median_interval
+from diffbot_sim.identification.recordings.intervals import median_interval, usual_interval
 from diffbot_sim.identification.recordings.unheard import Unheard, unheard
 from diffbot_sim.identification.recordings.way import measured_heading, measured_way
+from diffbot_sim.identification.statistics.norms import white_noise
 from diffbot_sim.physics.state import State
 from diffbot_sim.records import Array, Commands, Odometry, Run
 
@@ -18,7 +19,7 @@ from diffbot_sim.records import Array, Commands, Odometry, Run
 HIGHEST_RATE = 100.0
 # Commands too [Hz]: each is a step of the integrator.
 HIGHEST_COMMAND_RATE = 200.0
-# Commands that are nearer than this share of their mean interval are of one moment.
+# Commands that are nearer than this share of their usual interval are of one moment.
 AT_ONCE = 0.1
 # Shares of each run that are fitted when no run is given for validation: at first, and where
 # something begins in the rest.
@@ -132,13 +133,13 @@ def motion_of(stretches: Sequence[Stretch]) -> Array:
 
 def _surplus(time: Array, highest: float) -> int:
     """Return how many samples become one at most at the highest rate [Hz]."""
-    interval = mean_interval(time)
+    interval = usual_interval(time)
     return int(1.0 / (interval * highest) + 0.5) if interval > 0.0 else 1
 
 
 def _together(given: Commands) -> Commands:
     """Return commands of which those of one tick, each wheel's with its own stamp, are one."""
-    last = np.append(np.diff(given.time) > AT_ONCE * mean_interval(given.time), True)
+    last = np.append(np.diff(given.time) > AT_ONCE * usual_interval(given.time), True)
     return given if last.all() else given.rows(last)
 
 
@@ -211,7 +212,7 @@ def _intercept(time: Array, twist: Array) -> tuple[Array, float]:
 def _start(time: Array, twist: Array, pose: Array | None, heading: float) -> State:
     """Estimate the first state: a line through the first samples; rest where they allow it."""
     count = min(max(FEW, int(np.searchsorted(time, time[0] + START_WINDOW))), len(time))
-    noise = np.std(np.diff(twist[:count], n=2, axis=0), axis=0) / np.sqrt(6.0)
+    noise = white_noise(twist[:count])
     # The very first samples tell whether it rests: a push may set it in motion at once.
     at_first, spread = _intercept(time[:FEW], twist[:FEW])
     resting = np.all(np.abs(at_first) < 3.0 * noise * spread + 1e-9)

@@ -4,6 +4,8 @@ Each step is changed once, whatever the moments that are tried: a look at a mome
 than a recursion along the run.
 """
 
+from threading import Lock
+
 import numpy as np
 
 from diffbot_sim.identification.fitting.coordinates import Space
@@ -26,7 +28,7 @@ class Onsets:
     def __init__(self, fit: Fit, responses: tuple[Response, ...], amount: float) -> None:
         self._fit, self._responses, self._amount = fit, responses, amount
         self._steps = [Steps(fit.model, stretch, fit.gains) for stretch in fit.stretches]
-        self._known = dict[tuple[str, bytes], list[Array]]()
+        self._known, self._knowing = dict[tuple[str, bytes], list[Array]](), Lock()
 
     def slopes(self, space: Space, onset: int, point: Array, turned: list[int]) -> Array:
         """Return the derivative of the whitened errors by some amounts, shape (n, 2, q).
@@ -43,14 +45,16 @@ class Onsets:
         ):
             later = np.append(False, stretch.time[:-1] >= moment)
             errors.append(response.carried(np.stack(each, axis=-1) * later[:, None, None]))
-        return self._fit.counted(errors)
+        return self._fit.whiten(errors)
 
     def _changes(self, space: Space, point: Array, index: int) -> list[Array]:
         """Return what a unit of an amount changes in each step of each stretch, (k, 4)."""
         key = (space.coordinates[index].name, point.tobytes())
-        if key not in self._known:
-            self._known[key] = [self._slope(steps, space, point, index) for steps in self._steps]
-        return self._known[key]
+        with self._knowing:  # several moments are looked at side by side
+            if key not in self._known:
+                changes = [self._slope(steps, space, point, index) for steps in self._steps]
+                self._known[key] = changes
+            return self._known[key]
 
     def _slope(self, steps: Steps, space: Space, point: Array, index: int) -> Array:
         """Return it for one stretch."""

@@ -1,6 +1,7 @@
 """Rivals: structures that are fitted for as long as they may come up to another one."""
 
 from dataclasses import replace
+from functools import partial
 from math import inf
 
 import numpy as np
@@ -9,6 +10,7 @@ from diffbot_sim.identification.fitting.fit import ROUNDS, Fit, fit_prediction
 from diffbot_sim.identification.selection.evidence import delta_bic
 from diffbot_sim.identification.statistics.gains import block_gain
 from diffbot_sim.identification.statistics.guards import BLOCK_LEVEL, VERY_STRONG
+from diffbot_sim.identification.statistics.parallel import side_by_side
 from diffbot_sim.identification.statistics.robust import huber
 
 # What is behind by less than this, and more than that, is told from the best only if parts of the
@@ -24,11 +26,11 @@ def comes_up(rival: Fit, best: Fit) -> bool:
     Its own noise model may follow what is missing, so that nothing is left to catch up with: so
     it is fitted from the best's, too.
     """
-    begun = (replace(rival, gains=gains) for gains in (rival.gains, best.gains))
-    return any(_catches_up(it, best) for it in begun)
+    begun = [replace(rival, gains=gains) for gains in (rival.gains, best.gains)]
+    return any(side_by_side(partial(_catches_up, best), begun))
 
 
-def _catches_up(rival: Fit, best: Fit) -> bool:
+def _catches_up(best: Fit, rival: Fit) -> bool:
     behind = inf
     for _ in range(ROUNDS):
         rival = fit_prediction(rival.space, rival.stretches, rival.u, rival.gains, rounds=1)

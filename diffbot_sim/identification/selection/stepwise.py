@@ -2,6 +2,7 @@
 
 from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from operator import itemgetter
 from typing import NamedTuple
 
@@ -28,6 +29,7 @@ from diffbot_sim.identification.selection.trials import (
     judge_again,
     try_all,
 )
+from diffbot_sim.identification.statistics.parallel import side_by_side
 from diffbot_sim.physics.effects import Effect
 
 # What explains less than this share of what a found effect does, to first order, is no rival.
@@ -85,7 +87,8 @@ class Selection:
         self, final: Fit, names: Sequence[str], held_out: Sequence[Stretch]
     ) -> 'Selection':
         """Return the selection with another fit of these effects, each weighed anew."""
-        without, looks = {name: fit_without(final, name) for name in names}, _looks(self.trials)
+        fits, looks = side_by_side(partial(fit_without, final), names), _looks(self.trials)
+        without = dict(zip(names, fits, strict=True))
         support = {
             name: compare(rest, final, held_out).of_best(looks[name])
             for name, rest in without.items()
@@ -176,14 +179,13 @@ def _prune(
     """
     fit, left = path[-1], dict[str, str]()
     while True:
-        support, smaller = dict[str, Evidence](), dict[str, Fit]()
-        for kind in fit.space.kinds:
-            rest = set(fit.space.kinds) - {kind}
-            progress(f'trying without {kind.name}')
-            ends = [fit_without(fit, kind.name), *(f for f in path if set(f.space.kinds) == rest)]
-            smaller[kind.name] = min(ends, key=lambda end: end.deviance(fit.sigma))
-            evidence = compare(smaller[kind.name], fit, held_out)
-            support[kind.name] = evidence.of_best(looks[kind.name])
+        names = [kind.name for kind in fit.space.kinds]
+        if names:
+            progress(f'trying without {", ".join(names)}')
+        smaller = dict(zip(names, side_by_side(partial(_less_one, fit, path), names), strict=True))
+        support = {
+            name: compare(smaller[name], fit, held_out).of_best(looks[name]) for name in names
+        }
         outcomes = {name: judge_again(support[name], tried) for name in support}
         outcomes |= dict.fromkeys(fit.incredible & outcomes.keys(), NEEDLESS)
         leaving = [name for name, outcome in outcomes.items() if outcome != SUPPORTED]
@@ -192,6 +194,13 @@ def _prune(
         worst = min(leaving, key=lambda name: support[name].delta_bic)
         progress(f'{worst} leaves')
         fit, left[worst] = smaller[worst], outcomes[worst]
+
+
+def _less_one(fit: Fit, path: Sequence[Fit], name: str) -> Fit:
+    """Return the best fit of the structure that lacks one of the effects; path: as in _prune."""
+    rest = {kind for kind in fit.space.kinds if kind.name != name}
+    ends = [fit_without(fit, name), *(f for f in path if set(f.space.kinds) == rest)]
+    return min(ends, key=lambda end: end.deviance(fit.sigma))
 
 
 def _screened(fit: Fit, path: Sequence[Tried]) -> Screen:
