@@ -27,12 +27,16 @@ class Spec:
     reciprocal: bool = False
 
     @property
+    def unit_text(self) -> str:
+        """The unit, empty for a pure number."""
+        return self.unit.removeprefix('-')
+
+    @property
     def valid(self) -> str:
         """The valid values in words."""
         if self.choices:
             return 'one of ' + ', '.join(self.choices)
-        unit = self.unit.removeprefix('-')
-        return f'{self.low:g} to {self.high:g} {unit}'.rstrip()
+        return f'{self.low:g} to {self.high:g} {self.unit_text}'.rstrip()
 
     def fault(self, value: object) -> str | None:
         """Say what is wrong with a value, or None."""

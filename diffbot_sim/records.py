@@ -30,6 +30,11 @@ class Commands:
     force: Array
     unsure: Array | None = None
 
+    def held_at(self, time: Array) -> Array:
+        """Return the forces in force at times [s], shape (k, 2): none before the first command."""
+        current = np.searchsorted(self.time, time, side='right') - 1
+        return np.where(current[:, None] >= 0, self.force[np.maximum(current, 0)], 0.0)
+
     def rows(self, which: NDArray[np.int64] | NDArray[np.bool_]) -> 'Commands':
         """Return some of the commands."""
         unsure = None if self.unsure is None else self.unsure[which]

@@ -62,6 +62,8 @@ def is_moving(twist: Array) -> bool:
 
 def _noise(twist: Array) -> Array:
     """Return the noise of twists that mostly hardly change, shape (2,)."""
+    if len(twist) < 2:
+        return np.zeros(2)
     changes = np.abs(np.diff(twist, axis=0))
     return np.asarray(np.median(changes, axis=0) * 1.4826 / np.sqrt(2.0))
 

@@ -58,7 +58,8 @@ def _teleop(context: LaunchContext) -> list[Action]:
 
 
 def _opens(terminal: str) -> bool:
-    return bool(which(split(terminal)[0]) and environ.get('DISPLAY'))
+    words = split(terminal)
+    return bool(words and which(words[0]) and environ.get('DISPLAY'))
 
 
 def _command(namespace: str, stamped: bool) -> str:

@@ -100,7 +100,8 @@ def unexplained(with_pose: bool = True) -> Identification:
         'a force along x that depends on the heading', 'v', 'heading', 'heading [rad]', 0.57, 2e-9,
         knots, curve, np.full_like(knots, 0.08),
     )  # fmt: skip
-    return replace(found(with_pose=with_pose), verdict=UNEXPLAINED, unexplained=structure)
+    answer = found(with_pose=with_pose)
+    return replace(answer, verdict=UNEXPLAINED, effects=(), unexplained=structure)
 
 
 def errors(recalibrated: float) -> Errors:

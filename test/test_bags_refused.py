@@ -132,3 +132,12 @@ def test_a_bag_of_a_later_version_is_not_called_damaged(tmp_path):
     metadata = tmp_path / 'drive' / METADATA
     metadata.write_text(re.sub(r'version: \d+', 'version: 99', metadata.read_text()))
     assert 'of a kind that rosbags cannot read (Rosbag2 version 99' in told(tmp_path / 'drive')
+
+
+def test_messages_that_metadata_alone_tells_of_are_missed(tmp_path):
+    write_run(tmp_path / 'drive', drive())
+    metadata = tmp_path / 'drive' / 'metadata.yaml'
+    metadata.write_text(
+        metadata.read_text().replace('durability: volatile', 'durability: transient_local')
+    )
+    assert 'tells of messages that its files do not give' in told(tmp_path / 'drive')

@@ -9,13 +9,13 @@ from rosbags.rosbag2 import Reader
 
 from diffbot_sim.bags import Topics, read_run, write_run, write_series, write_trajectory
 from diffbot_sim.errors import BagError
-from diffbot_sim.records import Trajectory
+from diffbot_sim.records import Commands, Trajectory
 
 
 def test_predictions_are_a_bag_of_their_own(tmp_path):
     pair, odom = np.column_stack([TIME, 2 * TIME]), drive().odometry
-    predicted = Trajectory(TIME, odom.twist, odom.pose, pair, pair, pair, 3 * pair)
-    write_trajectory(tmp_path / 'out', predicted, START)
+    predicted = Trajectory(TIME, odom.twist, odom.pose, pair, pair, 2 * pair, 3 * pair)
+    write_trajectory(tmp_path / 'out', Commands(TIME, pair), predicted, START)
     found = read_run(tmp_path / 'out').run
     np.testing.assert_array_equal(found.odometry.twist, odom.twist)
     np.testing.assert_array_equal(found.commands.force, pair)
@@ -77,3 +77,12 @@ def test_stamps_come_back_to_the_nanosecond(tmp_path):
     run = replace(drive(), odometry=replace(drive().odometry, time=ticks / 1e9))
     write_run(tmp_path / 'drive', run, START)
     np.testing.assert_array_equal(read_run(tmp_path / 'drive').stamps, START + ticks)
+
+
+@pytest.mark.parametrize('name', ['out_0.mcap', 'out.db3', 'out_0/out_0.mcap'])
+def test_a_recording_that_was_cut_off_is_not_buried(tmp_path, name):
+    part = tmp_path / 'out' / name
+    part.parent.mkdir(parents=True)
+    part.write_bytes(b'cut')
+    with pytest.raises(BagError, match='a recording that was cut off, which is kept'):
+        write_run(tmp_path / 'out', drive())

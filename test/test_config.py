@@ -169,6 +169,10 @@ def test_wrong_parameters_are_named_with_what_is_valid(tmp_path, text, expected)
             '/a/simulator: {ros__parameters: {}}\nb: {simulator: {ros__parameters: {}}}',
             'several robots: /a, /b',
         ),
+        (
+            'simulator: {ros__parameters: {}}\nb: {simulator: {ros__parameters: {}}}',
+            'several robots: /, /b',
+        ),
         ('/**: {ros__parameters: }', 'ros__parameters holds None'),
         ('/**:\n  robot: [1.0', 'line 2: '),
         ('a: {b: 1,\n  b: 2}', 'line 2: b stands twice'),

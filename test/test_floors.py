@@ -15,7 +15,7 @@ PACKAGE = 'diffbot_sim'
 FUNCTION = ast.FunctionDef | ast.AsyncFunctionDef
 
 FLOORS = {
-    1: {'records', 'parameters', 'errors', 'standing'},
+    1: {'records', 'parameters', 'errors', 'files', 'standing'},
     2: {'physics', 'drives'},
     3: {'control', 'bags', 'tables', 'config'},
     4: {'identification', 'paper'},

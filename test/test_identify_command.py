@@ -127,3 +127,17 @@ def test_the_residual_bag_is_stamped_like_the_recording(tmp_path):
     identify.save(found(), ORIGIN, tmp_path, recorded)
     with Reader(tmp_path / 'residual') as reader:
         assert reader.start_time == START + 90 * 10**9
+
+
+def test_a_model_of_another_hand_is_kept(bag, capsys):
+    out = bag.parent / 'out'
+    out.mkdir()
+    (out / 'model.yaml').write_text('/**: {ros__parameters: {}}')
+    assert main(words(bag), 'identify') == 1
+    assert 'model.yaml: is of another hand, and is kept' in capsys.readouterr().err
+
+
+def test_notes_name_runs_as_the_report_does(bag):
+    item = RecordedRun(replace(drive(), name='a'), START, ('a: its wheels squeak',))
+    told = [renamed.notes for renamed in identify.distinct([item, item])]
+    assert told == [('a_1: its wheels squeak',), ('a_2: its wheels squeak',)]

@@ -5,7 +5,7 @@ from math import nan
 import pytest
 from geometry_msgs.msg import WrenchStamped
 from ros_robot import Robot, refusal, ros, running
-from std_srvs.srv import SetBool, Trigger
+from std_srvs.srv import Empty, SetBool, Trigger
 
 from diffbot_sim.nodes.conversions import nanoseconds, twist_of
 
@@ -102,3 +102,12 @@ def test_a_paused_robot_makes_a_single_step_when_told(alone):
 def test_a_loop_in_lockstep_needs_stamped_twists():
     line = refusal('pi_controller', '--ros-args', '-p', 'lockstep:=true')
     assert 'Set enable_stamped_cmd_vel to true' in line
+
+
+def test_reset_waits_for_both_wheels_anew_and_takes_no_answer_to_what_was_before(alone):
+    before = latest(alone)
+    answer(alone, 'left', 5.0, stamp=before)
+    alone.call(Empty, 'simulator/reset', Empty.Request())
+    answer(alone, 'right', 5.0, stamp=before)
+    alone.until(lambda: stamp_of(alone.heard['odom'][-1]) == before + TICK)
+    assert latest(alone) == before + TICK

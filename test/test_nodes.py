@@ -169,7 +169,7 @@ def test_pause_stops_time_and_resuming_continues_it(bare):
     assert stamps(bare.hear(1))[0] == last + 10_000_000
 
 
-def test_friction_and_effects_change_while_the_robot_drives(bare):
+def test_a_robot_becomes_heavier_while_it_drives(bare):
     bare.move(10.0, 8.0)
     assert set_parameter(bare, 'robot.mass', 1000).successful  # an integer will do
     first, *_, last = bare.push(10.0, 10.0, 10)
@@ -178,6 +178,16 @@ def test_friction_and_effects_change_while_the_robot_drives(bare):
     gained = twist_of(last)[0] - twist_of(first)[0]
     assert abs(gained) <= 20.0 / 1000.0 * (after - before) / 1e9
     assert twist_of(last)[0] > 0.0
+
+
+@pytest.mark.parametrize(
+    ('name', 'strong', 'usual'),
+    [('effects.quadratic_drag.coefficient', 500.0, 0.0), ('friction.mu_viscous', 2.0, 0.08)],
+)
+def test_what_holds_a_robot_back_changes_while_it_drives(bare, name, strong, usual):
+    assert set_parameter(bare, name, strong).successful
+    assert twist_of(bare.push(10.0, 10.0, 100)[-1])[0] < 0.25  # 1.5 m/s without it
+    assert set_parameter(bare, name, usual).successful
 
 
 @pytest.mark.parametrize(

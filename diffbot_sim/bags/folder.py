@@ -22,6 +22,7 @@ from diffbot_sim.bags.messages import STORE
 from diffbot_sim.errors import BagError
 
 METADATA = 'metadata.yaml'
+STORAGE, PACKED = ('.mcap', '.db3'), '.zstd'
 # Written into metadata.yaml: a bag that has it may be replaced.
 MARK = ('computed_by', 'diffbot_sim')
 FOREVER = QosTime(9223372036, 854775807)
@@ -46,6 +47,11 @@ class Message(NamedTuple):
     content: Any
 
 
+def is_part(file: Path) -> bool:
+    """Say whether a file is a part of a bag, compressed or not."""
+    return (file.with_suffix('') if file.suffix == PACKED else file).suffix in STORAGE
+
+
 def check_replaceable(folder: Path) -> None:
     """Raise BagError when the folder is a file, or holds a bag that was not computed here."""
     if folder.exists() and not folder.is_dir():
@@ -53,7 +59,7 @@ def check_replaceable(folder: Path) -> None:
     metadata = folder / METADATA
     if metadata.exists() and ': '.join(MARK) not in metadata.read_text('utf-8', 'replace'):
         raise BagError(f'{folder}: holds a recorded bag, which is kept. Choose another place.')
-    if not metadata.exists() and (folder / f'{folder.resolve().name}.mcap').exists():
+    if not metadata.exists() and any(is_part(file) for file in folder.rglob('*')):
         raise BagError(
             f'{folder}: holds a recording that was cut off, which is kept. Choose another place.'
         )

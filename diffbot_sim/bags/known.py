@@ -41,6 +41,11 @@ def known(odom: Ordered, forces: Iterable[Ordered]) -> Known:
 def apart(what: str, force: Stamps, odom: Stamps) -> BagError:
     """Return what is to be said of forces and odometry that have no time in common."""
     gap = _seconds(max(force[0], odom[0]) - min(force[-1], odom[-1]))
+    if gap < 0.0:
+        return BagError(
+            f'{what} is known for no time at which the other force is, and the robot moves. '
+            'Record both from the beginning to the end.'
+        )
     return BagError(
         f'{what} and odometry do not overlap in time, they are {gap:.3g} s apart. Were they '
         'stamped by different clocks? Give every node the same use_sim_time.'

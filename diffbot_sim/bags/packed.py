@@ -5,7 +5,7 @@ from pathlib import Path
 
 from zstandard import ZstdDecompressor, ZstdError
 
-from diffbot_sim.bags.storage import PACKED, is_part
+from diffbot_sim.bags.folder import PACKED, is_part
 
 
 def is_packed(file: Path) -> bool:

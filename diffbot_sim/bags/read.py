@@ -17,6 +17,7 @@ from diffbot_sim.bags.storage import naming, read_series
 from diffbot_sim.bags.suspect import suspicions
 from diffbot_sim.bags.topics import Topics
 from diffbot_sim.errors import BagError
+from diffbot_sim.files import spelled
 from diffbot_sim.records import NANOSECONDS, Array, Commands, Odometry, Run
 
 FEWEST = 50
@@ -47,7 +48,7 @@ def read_run(path: str | Path, topics: Topics | None = None) -> RecordedRun:
     Run time 0 is the first stamp of forces and odometry. Raises BagError.
     """
     place = Path(path)
-    name = place.stem if place.is_file() else place.resolve().name
+    name = spelled(place.stem if place.is_file() else place.resolve().name)
     with naming(path):
         return _recorded(name, read_series(place, topics or Topics()))
 

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from diffbot_sim.bags.copying import Saved, copy_messages
-from diffbot_sim.bags.folder import whole_or_not_at_all
+from diffbot_sim.bags.folder import STORAGE, whole_or_not_at_all
 from diffbot_sim.bags.mending import BESIDE, mend
 from diffbot_sim.bags.packed import is_packed, unpacked
-from diffbot_sim.bags.storage import FORM, STORAGE, check_no_bags_below, naming, opened
+from diffbot_sim.bags.storage import FORM, check_no_bags_below, naming, opened
 from diffbot_sim.errors import BagError
 
 

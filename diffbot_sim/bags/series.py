@@ -39,7 +39,10 @@ class Series:
     @property
     def has_stamps(self) -> bool:
         """Whether the headers are filled; a simulation clock may start at 0, none before."""
-        return int(np.count_nonzero(self.stamped <= 0)) <= 1
+        told = self.stamped > 0
+        if np.count_nonzero(~told) > 1:
+            return False
+        return bool(told.all() or np.min(self.stamped[told], initial=LONGEST_GAP) <= LONGEST_GAP)
 
 
 @dataclass(frozen=True)

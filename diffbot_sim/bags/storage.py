@@ -8,24 +8,18 @@ from typing import Any
 import numpy as np
 from rosbags.rosbag2 import Reader
 
-from diffbot_sim.bags.folder import METADATA
+from diffbot_sim.bags.folder import METADATA, STORAGE, is_part
 from diffbot_sim.bags.messages import STORE, odometry_row, wrench_row
 from diffbot_sim.bags.series import Series
 from diffbot_sim.bags.topics import Topics, absolute, find_topics
 from diffbot_sim.errors import BagError
 from diffbot_sim.records import NANOSECONDS
 
-STORAGE, PACKED = ('.mcap', '.db3'), '.zstd'
 FORM = 'A bag is a folder that holds metadata.yaml, or one .mcap or .db3 file.'
 MEND = "Save what can be read with 'diffbot_sim recover BAG --out DIR'."
 ROWS = {'left_force': wrench_row, 'right_force': wrench_row, 'odom': odometry_row}
 # How many numbers of a row are a force, or a twist; the others of odometry are a place.
 MEASURED = {'left_force': 1, 'right_force': 1, 'odom': 2}
-
-
-def is_part(file: Path) -> bool:
-    """Say whether a file is a part of a bag, compressed or not."""
-    return (file.with_suffix('') if file.suffix == PACKED else file).suffix in STORAGE
 
 
 def read_series(path: Path, topics: Topics) -> dict[str, Series]:
@@ -51,6 +45,11 @@ def _read(reader: Any, topic: str, role: str) -> Series:
         received.append(time)
         stamped.append(stamp.sec * NANOSECONDS + stamp.nanosec)
         rows.append(ROWS[role](message))
+    if not rows:
+        raise BagError(
+            f'{topic}: {METADATA} tells of messages that its files do not give, as where its QoS '
+            f'was edited. {MEND}'
+        )
     values = np.array(rows, dtype=float)
     return Series(topic, np.array(received), np.array(stamped), values, MEASURED[role])
 

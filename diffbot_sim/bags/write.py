@@ -9,7 +9,15 @@ import numpy as np
 
 from diffbot_sim.bags.folder import Message, write_bag
 from diffbot_sim.bags.messages import odometry, twist, wrench
-from diffbot_sim.records import CONTACT_FRAMES, NANOSECONDS, SIDES, Array, Run, Trajectory
+from diffbot_sim.records import (
+    CONTACT_FRAMES,
+    NANOSECONDS,
+    SIDES,
+    Array,
+    Commands,
+    Run,
+    Trajectory,
+)
 
 
 def write_run(path: str | Path, run: Run, start_ns: int = 0) -> None:
@@ -23,13 +31,20 @@ def write_run(path: str | Path, run: Run, start_ns: int = 0) -> None:
     )
 
 
-def write_trajectory(path: str | Path, trajectory: Trajectory, start_ns: int = 0) -> None:
-    """Write predicted odometry, forces and frictions, stamped like write_run. Raises BagError."""
+def write_trajectory(
+    path: str | Path, commands: Commands, trajectory: Trajectory, start_ns: int = 0
+) -> None:
+    """Write predicted odometry and frictions, and what was commanded, stamped like write_run.
+
+    A force is what a motor was asked for, as in any recording, not what effects made of it.
+    Raises BagError.
+    """
+    force = commands.held_at(trajectory.time)
     write_bag(
         Path(path),
         [
             *_odometry(trajectory.time, trajectory.twist, trajectory.pose, start_ns),
-            *_wheels('force', trajectory.time, trajectory.traction, start_ns),
+            *_wheels('force', trajectory.time, force, start_ns),
             *_wheels('friction', trajectory.time, trajectory.friction, start_ns),
         ],
     )

@@ -155,9 +155,8 @@ def _conclude(out: Path, hidden: Effect) -> None:
         estimate = found.get(hidden.name, {'parameters': {}})['parameters'].get(spec.name)
         low, high = estimate['ci95'] if estimate else (float('nan'), float('nan'))
         value = f'{estimate["value"]:.4g} [{low:.4g}, {high:.4g}]' if estimate else 'not found'
-        name = f'{hidden.name}.{spec.name}'
-        unit = spec.unit.removeprefix('-')
-        print(f'   {name}: hidden {getattr(hidden, spec.name):.4g}, found {value} {unit}')
+        true = f'{getattr(hidden, spec.name):.4g}'
+        print(f'   {hidden.name}.{spec.name}: hidden {true}, found {value} {spec.unit_text}')
     for name in found.keys() - {hidden.name}:
         print(f'   {name}: found, but was not hidden')
 

@@ -12,6 +12,7 @@ from diffbot_sim.commands._recordings import add_topic_options, check_out, folde
 from diffbot_sim.commands._residual import residual_series
 from diffbot_sim.config import left_out, load_model, save_model
 from diffbot_sim.errors import DiffbotError
+from diffbot_sim.files import spelled
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.recordings.parts import between
 from diffbot_sim.identification.result import Identification
@@ -20,6 +21,8 @@ from diffbot_sim.physics.model import Model
 from diffbot_sim.report import Origin, origin_of, print_summary, write_report
 
 RESIDUAL, MODEL = 'residual', 'model.yaml'
+# How a model begins that was identified: no other one is replaced.
+IDENTIFIED = 'Identified'
 # Lengths that nothing in a drive tells, so that they are not fitted.
 LENGTHS = ('wheel_separation', 'wheel_radius')
 # Guesses at what is fitted.
@@ -61,11 +64,12 @@ def run(arguments: Namespace) -> None:
     declared = _declared(arguments.params, arguments.out)
     read = read_bags(bags, arguments)
     _check_copies(bags, read)
-    recorded, learned = distinct(read), len(arguments.bags)
+    recorded = [_noted(*pair) for pair in zip(bags, distinct(read), strict=True)]
+    learned = len(arguments.bags)
     given, others = in_parts(recorded[:learned]), in_parts(recorded[learned:])
     runs, validate = ([item.run for item in items] for items in (given, others))
     result = identify(runs, declared, validate, progress=_tell)
-    notes = [note for item in read for note in item.notes]
+    notes = [note for item in recorded for note in item.notes]
     origin = origin_of(arguments.bags, arguments.validate, arguments.params, notes)
     save(result, origin, arguments.out, [*given, *others])
     print_summary(result)
@@ -94,9 +98,14 @@ def _check_copies(bags: Sequence[Path], read: Sequence[RecordedRun]) -> None:
 
 def _declared(params: Path, out: Path) -> Model:
     """Read the declared model, and tell which numbers it has from nobody."""
-    if params.resolve() == (out / MODEL).resolve():
+    model = out / MODEL
+    if params.resolve() == model.resolve():
         raise DiffbotError(
             f'{params}: the result would take its place. Choose another folder for --out.'
+        )
+    if model.exists() and not model.read_text('utf-8', 'replace').startswith(f'# {IDENTIFIED}'):
+        raise DiffbotError(
+            f'{model}: is of another hand, and is kept. Choose another folder for --out.'
         )
     declared = load_model(params)
     units = {spec.name: spec.unit for spec in specs(declared.robot)}
@@ -118,20 +127,34 @@ def distinct(recorded: Sequence[RecordedRun]) -> list[RecordedRun]:
             numbered = (f'{name}_{number}' for number in count(1))
             name = next(free for free in numbered if free not in taken)
             taken.add(name)
-        found.append(replace(item, run=replace(item.run, name=name)))
+        found.append(_called(name, item))
     return found
+
+
+def _called(name: str, item: RecordedRun) -> RecordedRun:
+    """Return a run by another name, in its notes, too."""
+    before = f'{item.run.name}: '
+    notes = tuple(f'{name}: {note.removeprefix(before)}' for note in item.notes)
+    return replace(item, run=replace(item.run, name=name), notes=notes)
+
+
+def _noted(bag: Path, item: RecordedRun) -> RecordedRun:
+    """Note which bag a run is that was numbered, and in which parts one with holes is taken."""
+    name, parts = item.run.name, between(item.run, item.pauses)
+    notes = [] if spelled(bag.resolve().name).startswith(name) else [f'{name} is {spelled(bag)}']
+    if parts[0] is not item.run:
+        names = ', '.join(part.name for part in parts)
+        notes.append(f'{name}: what lies between its holes is taken as: {names}')
+    for note in notes:
+        _tell(f'note: {note}')
+    return replace(item, notes=(*item.notes, *notes))
 
 
 def in_parts(recorded: Sequence[RecordedRun]) -> list[RecordedRun]:
-    """Return runs that were not recorded all along as one for each part, and tell so."""
-    found = []
-    for item in recorded:
-        parts = between(item.run, item.pauses)
-        found += [replace(item, run=part) for part in parts]
-        if parts[0] is not item.run:
-            names = ', '.join(part.name for part in parts)
-            _tell(f'note: {item.run.name}: what lies between its holes is taken as: {names}')
-    return found
+    """Return runs that were not recorded all along as one for each part."""
+    return [
+        replace(item, run=part) for item in recorded for part in between(item.run, item.pauses)
+    ]
 
 
 def save(
@@ -149,7 +172,7 @@ def save(
 def _head(result: Identification, origin: Origin) -> str:
     """Say where a model comes from, for the head of its file."""
     found = ', '.join(effect.name for effect in result.effects) or 'none'
-    return f'Identified: {origin.words}.\nEffects added: {found}.'
+    return f'{IDENTIFIED}: {origin.words}.\nEffects added: {found}.'
 
 
 def _tell(text: str) -> None:

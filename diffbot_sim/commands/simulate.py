@@ -71,8 +71,9 @@ def predict(arguments: Namespace) -> None:
     model = load_model(arguments.params)
     (recorded,) = read_bags([arguments.bag], arguments)
     measured = recorded.run.odometry
-    predicted = simulate(model, recorded.run.commands, measured.time, first_state(measured))
-    write_trajectory(arguments.out, predicted, recorded.start_ns)
+    commands = recorded.run.commands
+    predicted = simulate(model, commands, measured.time, first_state(measured))
+    write_trajectory(arguments.out, commands, predicted, recorded.start_ns)
     v, omega = np.sqrt(np.mean((predicted.twist - measured.twist) ** 2, axis=0))
     print(f'error over {np.ptp(measured.time):.1f} s, rms: v {v:.4g} m/s, ω {omega:.4g} rad/s')
     print(f'prediction: {arguments.out}')

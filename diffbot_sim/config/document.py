@@ -2,13 +2,13 @@
 
 import re
 from collections.abc import Mapping
-from os import replace
 from pathlib import Path
 from typing import Any
 
 import yaml
 
 from diffbot_sim.errors import ConfigError
+from diffbot_sim.files import write_whole
 
 
 class _Loader(yaml.SafeLoader):
@@ -56,10 +56,7 @@ def write_document(document: Mapping[str, Any], path: str | Path, comment: str) 
     """Write a mapping below a comment; raises ConfigError when the file cannot be written."""
     head = ''.join(f'# {line}'.rstrip() + '\n' for line in comment.splitlines())
     body = yaml.safe_dump(document, sort_keys=False, default_flow_style=None, width=99)
-    target = Path(path)
-    unfinished = target.with_name(target.name + '.part')
     try:
-        unfinished.write_text(head + body, 'utf-8')
-        replace(unfinished, target)
+        write_whole(Path(path), head + body)
     except OSError as error:
         raise ConfigError(f'{path}: cannot be written: {error.strerror}.') from error

@@ -66,8 +66,8 @@ def _of_one_robot(document: Mapping[Any, Any]) -> list[Section]:
     found = [each for each in sections_in(document) if each.node.rpartition('/')[2] in NODES]
     if not found:
         raise ConfigError(f'no parameters for the simulator. {FORM}')
-    spaces = {section.node.rpartition('/')[0] for section in found}
-    robots = sorted(space for space in spaces if space.strip('/*'))
+    named = {section.node for section in found if not section.node.startswith('/**')}
+    robots = sorted({node.rpartition('/')[0] or '/' for node in named})
     if len(robots) > 1:
         raise ConfigError(
             f'holds the parameters of several robots: {", ".join(robots)}. Give a file with '

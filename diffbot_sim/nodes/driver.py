@@ -1,6 +1,7 @@
 """Drive a robot so that its bag shows everything: cmd_vel with steps, arcs, turns and stops."""
 
 from functools import partial
+from math import inf
 
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
@@ -27,7 +28,7 @@ class Driver(Node):
         self._segments = excitation(
             chosen.seed, chosen.duration, chosen.fastest, chosen.fastest_turn
         )
-        self._first: int | None = None
+        self._first, self._last = 0, inf  # stamps [ns] of the first and the last odometry
         self._stamped = chosen.stamped
         kind = TwistStamped if chosen.stamped else Twist
         self._command = self.create_publisher(kind, 'cmd_vel', DEPTH)
@@ -36,11 +37,15 @@ class Driver(Node):
 
     def _on_odometry(self, message: Odometry) -> None:
         stamp = conversions.nanoseconds(message.header.stamp)
-        self._first = stamp if self._first is None else self._first
+        if stamp < self._last:  # the first one, or time jumped back
+            self._first = stamp
+        self._last = stamp
         elapsed = (stamp - self._first) / NANOSECONDS
         command = conversions.twist(*twist_at(self._segments, elapsed))
         if self._stamped:
-            command = TwistStamped(header=message.header, twist=command)
+            command = TwistStamped(twist=command)
+            command.header.stamp = message.header.stamp
+            command.header.frame_id = message.child_frame_id
         self._command.publish(command)
         if elapsed > self._duration:
             self.get_logger().info('the drive is over')

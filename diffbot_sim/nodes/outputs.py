@@ -68,13 +68,12 @@ class Outputs:
             for side, value, (publisher, message) in zip(SIDES, values, outlets, strict=True):
                 frame = self._prefix + CONTACT_FRAMES[side]
                 publisher.publish(conversions.wrench(stamp, frame, value, into=message))
-        self._publish_joints(stamp, plant, force)
+        self._publish_joints(stamp, plant)
 
-    def _publish_joints(self, stamp: int, plant: Plant, force: Pair) -> None:
+    def _publish_joints(self, stamp: int, plant: Plant) -> None:
         radius = plant.model.robot.wheel_radius
-        right, left = plant.wheel_speed
-        rate = (right / radius, left / radius)
-        torque = (force[0] * radius, force[1] * radius)
+        (right, left), (pushed, pulled) = plant.wheel_speed, plant.traction
+        rate, torque = (right / radius, left / radius), (pushed * radius, pulled * radius)
         conversions.joint_state(stamp, plant.wheel_angle, rate, torque, into=self._joint_state)
         self._joints.publish(self._joint_state)
 

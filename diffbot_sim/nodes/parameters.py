@@ -212,9 +212,8 @@ def converted(spec: Spec, value: Any) -> Any:
 
 def descriptor(spec: Spec, read_only: bool) -> ParameterDescriptor:
     """Describe a parameter to `ros2 param describe` and to rqt."""
-    unit = spec.unit.removeprefix('-')
     about = ParameterDescriptor(
-        description=f'{spec.meaning} [{unit}]' if unit else spec.meaning,
+        description=f'{spec.meaning} [{spec.unit_text}]' if spec.unit_text else spec.meaning,
         additional_constraints=spec.valid if spec.choices else '',
         read_only=read_only,
     )
@@ -227,12 +226,14 @@ def descriptor(spec: Spec, read_only: bool) -> ParameterDescriptor:
 
 
 def _nested(values: Values) -> dict[str, Any]:
-    """Return dotted names as nested mappings."""
+    """Return dotted names as nested mappings; raises ConfigError where one is both."""
     tree: dict[str, Any] = {}
-    for name, value in values.items():
+    for name in sorted(values, key=lambda name: name.count('.')):
         *path, last = name.split('.')
         branch = tree
         for key in path:
             branch = branch.setdefault(key, {})
-        branch[last] = value
+            if not isinstance(branch, dict):
+                raise ConfigError(f"{name}: '{key}' is a value already. Remove one of them.")
+        branch[last] = values[name]
     return tree

@@ -98,7 +98,11 @@ class PiController(Node):
         if last is not None and stamp >= last:
             return min((stamp - last) / NANOSECONDS, LONGEST)
         self._loop.reset()
-        self._references = {s: Held(held.value, stamp) for s, held in self._references.items()}
+        timeout = self._settings.cmd_vel_timeout
+        for side, held in self._references.items():
+            # What had run out before the jump stays so.
+            value = held.value if last is None else held.at(last, timeout)
+            self._references[side] = Held(value, stamp)
         return 0.0
 
     def _wanted_rates(self, stamp: int) -> Pair:

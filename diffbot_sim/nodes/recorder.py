@@ -60,7 +60,7 @@ class Recorder(Node):
         self._wanted = settings.topics
         _check_names(self._wanted)
         self._look()
-        self.create_timer(LOOK_AGAIN, self._look)
+        self.create_timer(LOOK_AGAIN, self._look, clock=steady_clock())
         self.create_timer(FLUSH, self._flush, clock=steady_clock())
         # Last of all: a signal that ends the node earlier leaves no bag that lacks its end.
         self._writer = recording(folder, settings.storage, _limits(settings))

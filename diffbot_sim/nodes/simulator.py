@@ -151,7 +151,7 @@ class Simulator(Node):
         pose, frame = conversions.pose_of(message), message.header.frame_id
         if frame in ('', self._outputs.world) and are_sane(pose):
             self._plant.place(State(*pose))
-            self._commands = dict.fromkeys(SIDES, Held())
+            self._begin_anew()
         else:
             self.get_logger().warning(
                 f"initialpose: {pose} in '{frame}' is refused; give a finite pose in "
@@ -161,9 +161,16 @@ class Simulator(Node):
     def _on_reset(self, _: Empty.Request, answer: Empty.Response) -> Empty.Response:
         """Put the robot at rest where it started; stamps go on: nobody likes time to jump."""
         self._plant.reset(self._home)
-        self._commands = dict.fromkeys(SIDES, Held())
         self._odometer = self._new_odometer()
+        self._begin_anew()
         return answer
+
+    def _begin_anew(self) -> None:
+        """Forget what was commanded; in lockstep, so that answers on their way come too late."""
+        self._commands = dict.fromkeys(SIDES, Held())
+        if self._settings.lockstep:
+            self._ticks += 1
+        self._time.restart()
 
     def _on_pause(self, ask: SetBool.Request, answer: SetBool.Response) -> SetBool.Response:
         self._paused = ask.data

@@ -44,6 +44,9 @@ class OnClock:
         self._show()
         self._advance()
 
+    def restart(self) -> None:
+        """Go on after a robot was moved: nothing is waited for."""
+
     def heard(self, side: str) -> None:
         """Take note of a command: it counts from the next tick on."""
 
@@ -83,6 +86,11 @@ class Lockstep:
     def step(self) -> None:
         """Let time advance by a single tick, once it has been answered."""
         self._allow(self._allowed + 1.0)
+
+    def restart(self) -> None:
+        """Show the tick anew after a robot was moved, and wait for both wheels."""
+        if self._shown:
+            self._show_next()
 
     def heard(self, side: str) -> None:
         """Take note of a command; the second one lets time advance."""

@@ -65,7 +65,7 @@ class Friction:
         smooth = self.model == 'generalized'
         excess = static - coulomb if smooth else 0.0
         viscous = on['mu_viscous'] * self.normal_force
-        return Law(0.0, 0.0, 0.0, 1.0, static, coulomb, excess, viscous, on['stribeck'])
+        return Law(0.0, 0.0, 0.0, 1.0, static, coulomb, excess, viscous, on['stribeck'], 0.0)
 
 
 _NAMES = ('mu_static', 'mu_coulomb', 'mu_viscous', 'stribeck')

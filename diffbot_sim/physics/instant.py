@@ -54,7 +54,7 @@ def nominal_law(
 ) -> Law:
     """Return the friction law that both wheels share, for one of them."""
     own = (params[STATIC], params[COULOMB], params[EXCESS], params[VISCOUS], params[STRIBECK])
-    return Law(side, direction, traction, balance.mass / params[MASS], *own)
+    return Law(side, direction, traction, balance.mass / params[MASS], *own, 0.0)
 
 
 @compiled
@@ -84,13 +84,13 @@ def gather(
         load.dry_torque,
         traction.right,
         traction.left,
-        right.static,
-        right.coulomb,
+        right.static + right.lost,
+        right.coulomb + right.lost,
         right.excess,
         right.viscous,
         right.stribeck,
-        left.static,
-        left.coulomb,
+        left.static + left.lost,
+        left.coulomb + left.lost,
         left.excess,
         left.viscous,
         left.stribeck,

@@ -65,8 +65,9 @@ class Law(NamedTuple):
     side is +1 for the right wheel and -1 for the left; direction is +1 forward, -1 backward;
     traction is the force that drives the wheel [N]; burden is the robot's mass as a share of the
     one it was declared with.
-    |F_fr| = coulomb + excess·exp(-stribeck·|v|) + viscous·|v| while rolling, and at most
-    static at rest; static, coulomb and excess [N], viscous [N·s/m], stribeck [s/m].
+    |F_fr| = coulomb + excess·exp(-stribeck·|v|) + viscous·|v| + lost while rolling, and at most
+    static + lost at rest; static, coulomb, excess and lost [N], viscous [N·s/m], stribeck [s/m].
+    lost is what a gear takes: no weight, side or direction scales it.
     """
 
     side: float
@@ -78,6 +79,7 @@ class Law(NamedTuple):
     excess: float
     viscous: float
     stribeck: float
+    lost: float
 
 
 class Load(NamedTuple):
@@ -123,6 +125,7 @@ def scaled(law: Law, dry: float, viscous: float) -> Law:
         law.excess * dry,
         law.viscous * viscous,
         law.stribeck,
+        law.lost,
     )
 
 
@@ -145,7 +148,10 @@ def nearly_within(force: float, limit: float, bend: float) -> float:
         return force
     if asked >= 1.0 / FAR_BELOW:
         return copysign(limit, force)
-    return force / (1.0 + asked**bend) ** (1.0 / bend)
+    if asked <= 1.0:
+        return force / (1.0 + asked**bend) ** (1.0 / bend)
+    # The same, whatever the bend: a power of more than 1 may be more than any number.
+    return copysign(limit, force) / (1.0 + asked**-bend) ** (1.0 / bend)
 
 
 @compiled

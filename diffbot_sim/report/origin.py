@@ -6,6 +6,7 @@ from datetime import date
 from pathlib import Path
 
 from diffbot_sim import __version__
+from diffbot_sim.files import spelled
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,6 @@ def origin_of(
     bags: Sequence[Path], validate: Sequence[Path], params: Path, notes: Sequence[str]
 ) -> Origin:
     """Return the origin of what is told today."""
-    learned, judged = (tuple(map(str, paths)) for paths in (bags, validate))
+    learned, judged = (tuple(map(spelled, paths)) for paths in (bags, validate))
     today = date.today().isoformat()
-    return Origin(learned, judged, str(params), today, __version__, tuple(notes))
+    return Origin(learned, judged, spelled(params), today, __version__, tuple(notes))

@@ -47,8 +47,7 @@ def verdict(result: Identification) -> str:
     if result.verdict == EFFECTS_FOUND:
         besides = f'; left unexplained: {_left(result)}' if result.unexplained else _pushed(result)
         return f'Found: {found}{denied}; {_fall(result.errors)}{besides}.'
-    besides = f'; found besides: {found}' if result.effects else ''
-    return f'Unexplained: {_left(result)}{besides}{denied}; {_fall(result.errors)}.'
+    return f'Unexplained: {_left(result)}{denied}; {_fall(result.errors)}.'
 
 
 def of_declared(result: Identification) -> list[str]:
@@ -102,7 +101,7 @@ def _sufficient(result: Identification) -> str:
 def _pushed(result: Identification) -> str:
     """Say of what is left without a visible cause that it has none; empty near the noise."""
     left, floor = result.errors.with_effects, result.errors.noise_floor
-    near = left.v_rmse < NEAR * floor.v_rmse and left.omega_rmse < NEAR * floor.omega_rmse
+    near = left.v_rmse <= NEAR * floor.v_rmse and left.omega_rmse <= NEAR * floor.omega_rmse
     return '' if near else PUSHED
 
 
@@ -133,6 +132,8 @@ def _fall(errors: Errors) -> str:
 
 def _change(before: float, after: float) -> float:
     """Return by which factor an error fell or rose, as a logarithm; endless from or to nothing."""
+    if before == after:
+        return 0.0
     return abs(log(after / before)) if before > 0.0 < after else inf
 
 
@@ -182,7 +183,7 @@ def disagreements(runs: Sequence[RunCheck]) -> list[str]:
     """Name the runs that disagree with the others; of two, nobody can say which is odd."""
     odd = [run for run in runs if not run.agrees]
     if len(runs) == 2 and odd:
-        return [f'{runs[0].name} and {runs[1].name} disagree. {runs[0].name}: {why(runs[0])}.']
+        return [f'{runs[0].name} and {runs[1].name} disagree. {odd[0].name}: {why(odd[0])}.']
     return [f'{run.name} {SET_ASIDE if run.set_aside else DISAGREES}: {why(run)}.' for run in odd]
 
 

@@ -1,10 +1,12 @@
-"""The report's files: a reader finds the old file or the new one, never half of one."""
+"""The report's files."""
 
 from pathlib import Path
 
+from diffbot_sim.files import write_whole
 from diffbot_sim.identification.result import Identification
 from diffbot_sim.report.json_report import json_text
 from diffbot_sim.report.origin import Origin
+from diffbot_sim.report.page import page_text
 
 
 def write_report(result: Identification, origin: Origin, out: Path) -> None:
@@ -12,11 +14,7 @@ def write_report(result: Identification, origin: Origin, out: Path) -> None:
 
     Raises OSError when the folder cannot be written.
     """
-    from diffbot_sim.report.page import page_text  # plotting loads slowly
-
     texts = {'report.json': json_text(result, origin), 'report.html': page_text(result, origin)}
     out.mkdir(parents=True, exist_ok=True)
     for name, text in texts.items():
-        part = out / f'{name}.part'
-        part.write_text(text, encoding='utf-8')
-        part.replace(out / name)
+        write_whole(out / name, text)

@@ -40,11 +40,10 @@ def columns_of(commands: Commands, motion: Trajectory) -> dict[str, Array]:
 
     The first command is given at the first stamp or before.
     """
-    current = np.searchsorted(commands.time, motion.time, side='right') - 1
     values = np.column_stack(
         [
             motion.time,
-            commands.force[current],
+            commands.held_at(motion.time),
             motion.traction,
             motion.wheel_speed,
             motion.wheel_angle,

@@ -1,6 +1,7 @@
 """power_limit: a body under constant power has the kinetic energy P t."""
 
 import numpy as np
+import pytest
 from motion import push
 
 from diffbot_sim.physics import Friction, Model
@@ -31,3 +32,11 @@ def test_brakes_take_no_more_than_their_power():
 def test_moving_robot_has_nearly_its_full_force_at_the_limit():
     limit, speed = 4.0, 1.0
     assert weakened(limit / speed, speed, limit, limit) > 0.99 * limit / speed
+
+
+@pytest.mark.parametrize('speed', [0.5, 3.0, 5.0, 11.0])
+@pytest.mark.parametrize('times', [1.5, 5.0, 10.0, 19.0, 30.0])
+def test_fast_wheel_gets_what_the_limit_leaves_however_much_is_asked(speed, times):
+    limit = 4.0 / speed
+    assert weakened(times * limit, speed, 4.0, 4.0) == pytest.approx(limit, rel=0.01)
+    assert weakened(-times * limit, -speed, 4.0, 4.0) == pytest.approx(-limit, rel=0.01)

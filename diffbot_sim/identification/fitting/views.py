@@ -86,9 +86,7 @@ def views(fit: Fit, stretches: Sequence[Stretch]) -> list[View]:
 
 def commanded(stretch: Stretch) -> Array:
     """Return the commanded forces [N] at every sample of a stretch, shape (k, 2)."""
-    commands = stretch.run.commands
-    index = np.searchsorted(commands.time, stretch.time, side='right') - 1
-    return np.where(index[:, None] >= 0, commands.force[np.maximum(index, 0)], 0.0)
+    return stretch.run.commands.held_at(stretch.time)
 
 
 def on_wheels(push: Array, half_separation: float) -> Array:

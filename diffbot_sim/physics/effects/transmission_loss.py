@@ -10,18 +10,18 @@ from diffbot_sim.physics.stages import Law, Motion, Stage
 
 @compiled
 def loaded(at: Motion, law: Law, loss: float) -> Law:
-    """Add a share of the force that the gear carries to its dry friction."""
-    more = loss * abs(law.traction)
+    """Let the gear lose a share of the force that it carries."""
     return Law(
         law.side,
         law.direction,
         law.traction,
         law.burden,
-        law.static + more,
-        law.coulomb + more,
+        law.static,
+        law.coulomb,
         law.excess,
         law.viscous,
         law.stribeck,
+        law.lost + loss * abs(law.traction),
     )
 
 
