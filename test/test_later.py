@@ -11,10 +11,9 @@ from diffbot_sim.identification.later import sets_in_later
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.payload_change import PayloadChange
-from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
 from diffbot_sim.records import Run
 
-MOMENT, KINDS = 44.5, (PayloadChange, QuadraticDrag)
+MOMENT, KINDS = 44.5, (PayloadChange,)
 
 
 @cache

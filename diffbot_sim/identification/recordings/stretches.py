@@ -134,7 +134,8 @@ def motion_of(stretches: Sequence[Stretch]) -> Array:
 def _surplus(time: Array, highest: float) -> int:
     """Return how many samples become one at most at the highest rate [Hz]."""
     interval = usual_interval(time)
-    return int(1.0 / (interval * highest) + 0.5) if interval > 0.0 else 1
+    # But for rounding: half a sample more is one more.
+    return int(round(1.0 / (interval * highest), 6) + 0.5) if interval > 0.0 else 1
 
 
 def _together(given: Commands) -> Commands:
