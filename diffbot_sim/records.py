@@ -16,6 +16,12 @@ NANOSECONDS = 1_000_000_000
 LARGEST = 1e6
 
 
+def held(since: Array | NDArray[np.int64], values: Array, at: Array | NDArray[np.int64]) -> Array:
+    """Return values at other times, shape (k, m), each held until the next, 0 before all."""
+    index = np.searchsorted(since, at, side='right') - 1
+    return np.where(index[:, None] >= 0, values[index], 0.0)
+
+
 @dataclass(frozen=True)
 class Commands:
     """Wheel force commands, each held until the next one.
@@ -32,8 +38,7 @@ class Commands:
 
     def held_at(self, time: Array) -> Array:
         """Return the forces in force at times [s], shape (k, 2): none before the first command."""
-        current = np.searchsorted(self.time, time, side='right') - 1
-        return np.where(current[:, None] >= 0, self.force[np.maximum(current, 0)], 0.0)
+        return held(self.time, self.force, time)
 
     def rows(self, which: NDArray[np.int64] | NDArray[np.bool_]) -> 'Commands':
         """Return some of the commands."""

@@ -12,6 +12,7 @@ from diffbot_sim.bags.folder import METADATA
 from diffbot_sim.bags.raw import USUAL, Offer, Raw
 from diffbot_sim.bags.recording import RawWriter
 from diffbot_sim.errors import BagError
+from diffbot_sim.files import write_whole
 from diffbot_sim.records import NANOSECONDS
 
 INFORMATION = 'rosbag2_bagfile_information'
@@ -68,9 +69,8 @@ class PartsWriter:
     def close(self) -> None:
         """Finish the last part and write the metadata of all."""
         self._finish()
-        unfinished = self._folder / f'.{METADATA}'
-        unfinished.write_text(yaml.safe_dump({INFORMATION: joined(self._finished)}), 'utf-8')
-        unfinished.replace(self._folder / METADATA)
+        text = yaml.safe_dump({INFORMATION: joined(self._finished)})
+        write_whole(self._folder / METADATA, text)
 
     def _is_full(self, stamp: int) -> bool:
         age = (stamp - self._since) / NANOSECONDS

@@ -12,13 +12,13 @@ from diffbot_sim.bags.lost import with_lost
 from diffbot_sim.bags.notes import notes_on, notes_on_clock
 from diffbot_sim.bags.pauses import pauses
 from diffbot_sim.bags.poses import pose_of, without_broken
-from diffbot_sim.bags.series import Ordered, Series, Stamps, held, ordered
+from diffbot_sim.bags.series import Ordered, Series, Stamps, ordered
 from diffbot_sim.bags.storage import naming, read_series
 from diffbot_sim.bags.suspect import suspicions
 from diffbot_sim.bags.topics import Topics
 from diffbot_sim.errors import BagError
 from diffbot_sim.files import spelled
-from diffbot_sim.records import NANOSECONDS, Array, Commands, Odometry, Run
+from diffbot_sim.records import NANOSECONDS, Array, Commands, Odometry, Run, held
 
 FEWEST = 50
 
@@ -97,7 +97,7 @@ def _commands(left: Ordered, right: Ordered, start: int) -> Commands:
     """Return what both wheels were commanded, those that were lost among it."""
     wheels = with_lost(right), with_lost(left)
     stamps = np.union1d(*(wheel.stamp for wheel in wheels))
-    told = np.stack([held(wheel, stamps) for wheel in wheels], axis=-1)
+    told = np.stack([held(wheel.stamp, wheel.values, stamps) for wheel in wheels], axis=-1)
     force, unsure = told[:, 0], told[:, 1]
     return Commands(_seconds(stamps, start), force, unsure if unsure.any() else None)
 

@@ -106,12 +106,6 @@ def silences(series: Ordered) -> list[Stamps]:
     return [series.stamp[i : i + 2] for i in holes]
 
 
-def held(series: Ordered, stamps: Stamps) -> Array:
-    """Return the values at other stamps, shape (k, m), each held until the next, 0 before all."""
-    index = np.searchsorted(series.stamp, stamps, side='right') - 1
-    return np.where(index[:, None] >= 0, series.values[index], 0.0)
-
-
 def _is_finite(series: Series) -> NDArray[np.bool_]:
     """Return which messages are finite, and tell of no more than any robot does."""
     measured = np.abs(series.values[:, : series.measured]) <= LARGEST

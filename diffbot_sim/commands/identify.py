@@ -4,7 +4,7 @@ import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import count
+from itertools import chain, count
 from pathlib import Path
 
 from diffbot_sim.bags import RecordedRun, check_replaceable, write_series
@@ -64,12 +64,13 @@ def run(arguments: Namespace) -> None:
     declared = _declared(arguments.params, arguments.out)
     read = read_bags(bags, arguments)
     _check_copies(bags, read)
-    recorded = [_noted(*pair) for pair in zip(bags, distinct(read), strict=True)]
+    named = zip(bags, read, distinct(read), strict=True)
+    parted = [in_parts(_called_otherwise(*item)) for item in named]
     learned = len(arguments.bags)
-    given, others = in_parts(recorded[:learned]), in_parts(recorded[learned:])
+    given, others = (list(chain(*items)) for items in (parted[:learned], parted[learned:]))
     runs, validate = ([item.run for item in items] for items in (given, others))
     result = identify(runs, declared, validate, progress=_tell)
-    notes = [note for item in recorded for note in item.notes]
+    notes = [note for first, *_ in parted for note in first.notes]
     origin = origin_of(arguments.bags, arguments.validate, arguments.params, notes)
     save(result, origin, arguments.out, [*given, *others])
     print_summary(result)
@@ -138,23 +139,26 @@ def _called(name: str, item: RecordedRun) -> RecordedRun:
     return replace(item, run=replace(item.run, name=name), notes=notes)
 
 
-def _noted(bag: Path, item: RecordedRun) -> RecordedRun:
-    """Note which bag a run is that was numbered, and in which parts one with holes is taken."""
-    name, parts = item.run.name, between(item.run, item.pauses)
-    notes = [] if spelled(bag.resolve().name).startswith(name) else [f'{name} is {spelled(bag)}']
-    if parts[0] is not item.run:
-        names = ', '.join(part.name for part in parts)
-        notes.append(f'{name}: what lies between its holes is taken as: {names}')
-    for note in notes:
-        _tell(f'note: {note}')
-    return replace(item, notes=(*item.notes, *notes))
+def _called_otherwise(bag: Path, was: RecordedRun, now: RecordedRun) -> RecordedRun:
+    """Return a run with a note on which bag it is, if its name was changed."""
+    name = now.run.name
+    return now if name == was.run.name else _noted(now, f'{name} is {spelled(bag)}')
 
 
-def in_parts(recorded: Sequence[RecordedRun]) -> list[RecordedRun]:
-    """Return runs that were not recorded all along as one for each part."""
-    return [
-        replace(item, run=part) for item in recorded for part in between(item.run, item.pauses)
-    ]
+def in_parts(item: RecordedRun) -> list[RecordedRun]:
+    """Return a run that was not recorded all along as one for each part, with a note on them."""
+    parts = between(item.run, item.pauses)
+    if parts[0] is item.run:
+        return [item]
+    names = ', '.join(part.name for part in parts)
+    told = _noted(item, f'{item.run.name}: what lies between its holes is taken as: {names}')
+    return [replace(told, run=part) for part in parts]
+
+
+def _noted(item: RecordedRun, note: str) -> RecordedRun:
+    """Return a run with one note more, which is told."""
+    _tell(f'note: {note}')
+    return replace(item, notes=(*item.notes, note))
 
 
 def save(

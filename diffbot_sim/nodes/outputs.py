@@ -72,8 +72,10 @@ class Outputs:
 
     def _publish_joints(self, stamp: int, plant: Plant) -> None:
         radius = plant.model.robot.wheel_radius
-        (right, left), (pushed, pulled) = plant.wheel_speed, plant.traction
-        rate, torque = (right / radius, left / radius), (pushed * radius, pulled * radius)
+        right, left = plant.wheel_speed
+        rate = (right / radius, left / radius)
+        right, left = plant.traction
+        torque = (right * radius, left * radius)
         conversions.joint_state(stamp, plant.wheel_angle, rate, torque, into=self._joint_state)
         self._joints.publish(self._joint_state)
 

@@ -89,10 +89,7 @@ class Selection:
         """Return the selection with another fit of these effects, each weighed anew."""
         fits, looks = side_by_side(partial(fit_without, final), names), _looks(self.trials)
         without = dict(zip(names, fits, strict=True))
-        support = {
-            name: compare(rest, final, held_out).of_best(looks[name])
-            for name, rest in without.items()
-        }
+        support = _support(final, without, looks, held_out)
         return replace(self, final=final, without=without, support=support)
 
 
@@ -183,9 +180,7 @@ def _prune(
         if names:
             progress(f'trying without {", ".join(names)}')
         smaller = dict(zip(names, side_by_side(partial(_less_one, fit, path), names), strict=True))
-        support = {
-            name: compare(smaller[name], fit, held_out).of_best(looks[name]) for name in names
-        }
+        support = _support(fit, smaller, looks, held_out)
         outcomes = {name: judge_again(support[name], tried) for name in support}
         outcomes |= dict.fromkeys(fit.incredible & outcomes.keys(), NEEDLESS)
         leaving = [name for name, outcome in outcomes.items() if outcome != SUPPORTED]
@@ -194,6 +189,15 @@ def _prune(
         worst = min(leaving, key=lambda name: support[name].delta_bic)
         progress(f'{worst} leaves')
         fit, left[worst] = smaller[worst], outcomes[worst]
+
+
+def _support(
+    fit: Fit, without: Mapping[str, Fit], looks: Mapping[str, int], held_out: Sequence[Stretch]
+) -> dict[str, Evidence]:
+    """Weigh a fit against those that lack one of its effects each; looks: as in _prune."""
+    return {
+        name: compare(rest, fit, held_out).of_best(looks[name]) for name, rest in without.items()
+    }
 
 
 def _less_one(fit: Fit, path: Sequence[Fit], name: str) -> Fit:
