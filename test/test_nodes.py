@@ -17,7 +17,9 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Empty, SetBool
 
+from diffbot_sim.errors import ConfigError
 from diffbot_sim.nodes.conversions import nanoseconds, pose_of, twist_of
+from diffbot_sim.nodes.parameters import nested
 
 RADIUS = 0.08
 NEAR = 0.03  # m/s and rad/s
@@ -178,6 +180,23 @@ def test_a_robot_becomes_heavier_while_it_drives(bare):
     gained = twist_of(last)[0] - twist_of(first)[0]
     assert abs(gained) <= 20.0 / 1000.0 * (after - before) / 1e9
     assert twist_of(last)[0] > 0.0
+
+
+def test_effort_is_that_of_the_force_that_the_motors_give(bare):
+    bare.listen(JointState, 'joint_states')
+    assert set_parameter(bare, 'effects.actuator_saturation.limit', 3.0).successful
+    bare.push(10.0, 8.0, 20)
+    last = list(bare.heard['joint_states'][-1].effort)
+    assert last == pytest.approx([3.0 * RADIUS, 3.0 * RADIUS])
+    assert set_parameter(bare, 'effects.actuator_saturation.limit', 1e6).successful
+
+
+@pytest.mark.parametrize('last', ['robot.mass', 'robot.mass.kg'])
+def test_name_that_is_a_value_and_a_section_is_refused(last):
+    values = {'robot.mass': 10.0, 'robot.mass.kg': 12.0}
+    last_value = values.pop(last)
+    with pytest.raises(ConfigError, match="kg: 'mass' is a value already"):
+        nested({**values, last: last_value})
 
 
 @pytest.mark.parametrize(

@@ -86,7 +86,7 @@ def given(node: Node) -> dict[str, Any]:
             raise ConfigError(
                 f'{node.get_name()}: {name}: unknown parameter. {suggestion(name, known)}'
             )
-    model_from_mapping(_nested(values), node.get_name())
+    model_from_mapping(nested(values), node.get_name())
     return values
 
 
@@ -225,7 +225,7 @@ def descriptor(spec: Spec, read_only: bool) -> ParameterDescriptor:
     return about
 
 
-def _nested(values: Values) -> dict[str, Any]:
+def nested(values: Values) -> dict[str, Any]:
     """Return dotted names as nested mappings; raises ConfigError where one is both."""
     tree: dict[str, Any] = {}
     for name in sorted(values, key=lambda name: name.count('.')):
