@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Pair = tuple[float, float]
 # The wheels in the order of columns.
 SIDES = ('right', 'left')
 # The frames that forces on the wheels are told in: where each touches the floor.

@@ -25,6 +25,10 @@ def test_a_debt_of_more_than_a_second_is_given_up_and_told():
     assert given_up == pytest.approx((3.005 - LONGEST_DEBT) / 0.01, abs=1.0)
 
 
+def test_slow_ticks_are_in_debt_for_a_second_too():
+    assert Pace(0.4, now=0.0).due(3.9) == (2, 8)
+
+
 @given(st.floats(1e-4, 0.1), st.lists(st.floats(0.0, 2.0), min_size=1, max_size=20))
 def test_every_tick_is_made_given_up_or_still_owed(period, waits):
     pace, now, told = Pace(period, now=0.0), 0.0, 0

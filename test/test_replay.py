@@ -16,10 +16,14 @@ import numpy as np
 import pytest
 from drives import START, drive
 from geometry_msgs.msg import WrenchStamped
-from ros_robot import COMMAND, PATIENCE, Robot, refusal, running
+from nav_msgs.msg import Odometry
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from ros_robot import COMMAND, DEPTH, PATIENCE, Robot, refusal, running
 from rosgraph_msgs.msg import Clock
 
 from diffbot_sim.bags import write_run
+from diffbot_sim.bags.raw import Offer, raw_messages
+from diffbot_sim.bags.recording import RawWriter
 from diffbot_sim.nodes.conversions import nanoseconds
 from diffbot_sim.nodes.targets import commands
 
@@ -97,6 +101,22 @@ def test_the_clock_tells_the_recorded_time_and_jumps_back_with_the_loop(bag, rob
     assert -0.01 <= times.min() <= times.max() < 1.1
     assert np.count_nonzero(steps < 0.0) in (2, 3)
     assert steps[steps > 0.0].mean() == pytest.approx(0.005, rel=0.3)
+
+
+def test_what_was_kept_for_late_listeners_is_kept_again(bag, robot, tmp_path):
+    kept = tmp_path / 'kept'
+    writer = RawWriter(kept)
+    for message in raw_messages(bag, {'/odom'}):
+        writer.write(message, Offer(durability='transient_local'))
+    writer.close()
+    robot.catch_up().heard['odom'].clear()
+    with running(tmp_path / 'log', 'replay', str(kept), *ODOM, '--rate', '0.2'):
+        robot.until(lambda: len(robot.heard['odom']) > 20)
+        late: list[Odometry] = []
+        quality = QoSProfile(depth=DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        robot.node.create_subscription(Odometry, 'odom', late.append, quality)
+        robot.until(lambda: late)
+    assert nanoseconds(late[0].header.stamp) == START
 
 
 class Terminal:

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from rosbags.interfaces import QosDurability
+
 from diffbot_sim.bags import storage
 from diffbot_sim.bags.messages import STORE
 from diffbot_sim.bags.topics import absolute
@@ -44,6 +46,12 @@ def topics_in(bag: Path) -> dict[str, str]:
         return storage.types_in(reader)
 
 
+def kept_topics(bag: Path) -> set[str]:
+    """Return the full names of topics whose messages wait for late listeners; raises BagError."""
+    with _opened(bag) as reader:
+        return {absolute(item.topic) for item in reader.connections if _is_kept(item)}
+
+
 def span_of(bag: Path) -> tuple[int, int]:
     """Return when the first and the last message of a bag came [ns]; raises BagError."""
     with _opened(bag) as reader:
@@ -64,3 +72,8 @@ def _opened(bag: Path) -> Iterator[Any]:
         storage.check_place(bag)
         with storage.opened(bag) as reader:
             yield reader
+
+
+def _is_kept(source: Any) -> bool:
+    offers = source.ext.offered_qos_profiles
+    return any(offer.durability is QosDurability.TRANSIENT_LOCAL for offer in offers)

@@ -5,9 +5,7 @@ import numpy as np
 from diffbot_sim.physics import Friction, Robot
 from diffbot_sim.physics.friction import friction_force
 from diffbot_sim.physics.kinematics import wheel_speeds
-from diffbot_sim.records import Array
-
-Pair = tuple[float, float]
+from diffbot_sim.records import Array, Pair
 
 
 def wheel_forces(robot: Robot, friction: Friction, twist: Pair, acceleration: Pair) -> Pair:

@@ -3,11 +3,12 @@
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from diffbot_sim.control.feed_forward import Pair, wheel_forces
+from diffbot_sim.control.feed_forward import wheel_forces
 from diffbot_sim.control.pi import Gains, control, wheel_rates
 from diffbot_sim.parameters import parameter
 from diffbot_sim.physics import Friction, Robot
 from diffbot_sim.physics.kinematics import body_twist
+from diffbot_sim.records import Pair
 
 
 @dataclass(frozen=True)

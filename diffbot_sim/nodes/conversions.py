@@ -19,12 +19,10 @@ from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
-from diffbot_sim.records import NANOSECONDS, Array
+from diffbot_sim.records import NANOSECONDS, Array, Pair
 
 WORLD, BODY = 'odom', 'base_link'
 JOINTS = ['right_wheel_joint', 'left_wheel_joint']
-
-Pair = tuple[float, float]
 
 
 def time(stamp: int) -> Time:

@@ -10,11 +10,10 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
 from diffbot_sim.nodes import conversions
-from diffbot_sim.nodes.conversions import Pair
 from diffbot_sim.nodes.odometer import Odometer
 from diffbot_sim.nodes.settings import SimulatorSettings
 from diffbot_sim.physics import Plant
-from diffbot_sim.records import CONTACT_FRAMES, SIDES
+from diffbot_sim.records import CONTACT_FRAMES, SIDES, Pair
 
 DEPTH = 10
 # Messages kept for a listener that is busy, so that a recording on a busy machine has no gap.

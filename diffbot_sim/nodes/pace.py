@@ -13,7 +13,7 @@ class Pace:
         """Let a tick be due now and at every period [s] after it."""
         self.period = period
         self._next = now
-        self._bearable = max(AT_ONCE, int(LONGEST_DEBT / period))
+        self._bearable = max(1, int(LONGEST_DEBT / period))
 
     def left(self, now: float) -> float:
         """Return how long [s] it takes from now [s] to the next tick."""

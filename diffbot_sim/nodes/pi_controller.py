@@ -11,13 +11,12 @@ from diffbot_sim.control.loop import InnerLoop
 from diffbot_sim.control.pi import wheel_rates
 from diffbot_sim.nodes import conversions
 from diffbot_sim.nodes.company import watch_for_type
-from diffbot_sim.nodes.conversions import Pair
 from diffbot_sim.nodes.outputs import DEPTH
 from diffbot_sim.nodes.parameters import Live, build, table
 from diffbot_sim.nodes.running import parse, parser, run
 from diffbot_sim.nodes.sanity import accepts
 from diffbot_sim.nodes.settings import ControllerSettings
-from diffbot_sim.records import CONTACT_FRAMES, NANOSECONDS, SIDES
+from diffbot_sim.records import CONTACT_FRAMES, NANOSECONDS, SIDES, Pair
 
 LONGEST = 0.1  # [s]; a gap in the odometry must not wind up the integral
 

@@ -8,8 +8,9 @@ from typing import Any
 
 from rclpy.duration import Duration
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 
-from diffbot_sim.bags.raw import raw_messages, span_of, topics_in
+from diffbot_sim.bags.raw import kept_topics, raw_messages, span_of, topics_in
 from diffbot_sim.errors import BagError
 from diffbot_sim.nodes import conversions
 from diffbot_sim.nodes.running import parse, parser, run
@@ -30,8 +31,10 @@ class Replay(Node):
         self._bag, self._start = bag, _moment(bag, offset)
         there = topics_in(bag)
         targets = chosen(asked, there, bag) if asked else commands(there, bag)
+        kept = kept_topics(bag)
         self._outlets = {
-            topic: self._outlet(there[topic], target) for topic, target in targets.items()
+            topic: self._outlet(there[topic], target, topic in kept)
+            for topic, target in targets.items()
         }
         if next(raw_messages(bag, self._outlets, self._start), None) is None:
             nothing = f'{bag}: nothing on {", ".join(self._outlets)} after {offset:g} s'
@@ -70,11 +73,14 @@ class Replay(Node):
         outlets = self._outlets.values()
         return [item.topic_name for item in outlets if not item.get_subscription_count()]
 
-    def _outlet(self, kind: str, target: str) -> Any:
+    def _outlet(self, kind: str, target: str, is_kept: bool) -> Any:
         message_type = conversions.message_type(kind)
         if message_type is None:
             raise BagError(f'{self._bag}: {kind} is not installed. Source its package.')
-        return self.create_publisher(message_type, target, DEPTH)
+        durability = DurabilityPolicy.TRANSIENT_LOCAL if is_kept else DurabilityPolicy.VOLATILE
+        return self.create_publisher(
+            message_type, target, QoSProfile(depth=DEPTH, durability=durability)
+        )
 
 
 def _moment(bag: Path, offset: float) -> int:

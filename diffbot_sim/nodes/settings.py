@@ -71,7 +71,7 @@ class SimulatorSettings:
     )
     lockstep: bool = parameter(
         False,
-        meaning='time advances only when both wheels have been commanded, and starts at 0',
+        meaning='time waits until both wheels are commanded; the first stamp is one tick, not 0',
     )
     force_timeout: float = parameter(
         0.5,

@@ -11,6 +11,7 @@ from diffbot_sim.nodes.pace import Pace
 from diffbot_sim.records import NANOSECONDS, SIDES
 
 SHORTEST_TIMER = 1e-3  # [s]; the executor cannot wake more often to any use
+LONGEST_TIMER = 3600.0  # [s]; one that wakes too early finds nothing due
 NO_TIMER = 1e-6  # [s]; a tick at every turn of the executor
 UNANSWERED = 1.0  # [s] after which a tick that nobody answers is told once more
 QUIET = 5.0  # [s] between repeated warnings
@@ -30,9 +31,8 @@ class OnClock:
     def start(self, period: float) -> None:
         """Tick at every period [s] of wall time from now on; 0: as fast as it goes."""
         self._pace = Pace(period, monotonic()) if period else None
-        self._timer.timer_period_ns = round(
-            (max(period, SHORTEST_TIMER) if period else NO_TIMER) * NANOSECONDS
-        )
+        wake = min(max(period, SHORTEST_TIMER), LONGEST_TIMER) if period else NO_TIMER
+        self._timer.timer_period_ns = round(wake * NANOSECONDS)
         self._timer.reset()
 
     def stop(self) -> None:
