@@ -12,6 +12,7 @@ from diffbot_sim.identification.selection.evidence import compare, likelihood_ra
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.stepwise import select, tried_on
 from diffbot_sim.identification.selection.trials import (
+    CHANCE,
     ESSENTIAL_SHARE,
     NEEDLESS,
     SUPPORTED,
@@ -19,10 +20,12 @@ from diffbot_sim.identification.selection.trials import (
 )
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects import Effect
+from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
 from diffbot_sim.physics.effects.actuator_saturation import ActuatorSaturation
 from diffbot_sim.physics.effects.friction_drift import FrictionDrift
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
 from diffbot_sim.physics.effects.voltage_limit import VoltageLimit
+from diffbot_sim.physics.effects.wheel_friction_asymmetry import WheelFrictionAsymmetry
 
 
 @pytest.mark.parametrize(('coefficient', 'names'), [(0.05, []), (0.1, ['quadratic_drag'])])
@@ -62,6 +65,19 @@ def test_limit_that_acts_for_moments_enters_where_other_data_confirm_it() -> Non
     fit, held_out = fitted(rehearse(limited, drive, SMOOTH, 3))
     (trial,) = try_all(Screen(fit), [VoltageLimit], held_out, lambda text: None)
     assert trial.accepted
+
+
+def test_effects_that_hide_each_other_are_found_together() -> None:
+    acting = (ActuatorGain(0.008), WheelFrictionAsymmetry(0.012, 0.012))
+    drive, noisy = random_forces(4, 60.0, -9.0, 11.0), Surroundings(0.015, 0.03)
+    fit, held_out = fitted(rehearse(Model(effects=acting), drive, noisy, 4))
+    kinds = [ActuatorGain, WheelFrictionAsymmetry, QuadraticDrag]
+    first = tried_on(fit, kinds, held_out, lambda text: None)
+    assert first.best is None
+    found = select(first, kinds, held_out, lambda text: None)
+    assert set(found.support) == {'actuator_gain', 'wheel_friction_asymmetry'}
+    outcomes = {told.kind.name: told.outcome for told in found.trials}
+    assert outcomes == {**dict.fromkeys(found.support, SUPPORTED), 'quadratic_drag': CHANCE}
 
 
 def test_what_is_found_counts_the_shapes_tried() -> None:

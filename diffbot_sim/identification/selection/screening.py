@@ -41,7 +41,8 @@ class Score:
     ratio: estimate of the likelihood ratio; p_value: its chance under no effect, counting the
     shapes tried; starts: points (u of the larger space) at which full fits should begin, the best
     first; seen: whether the drive shows the effect at all once the free parameters have adapted;
-    shapes: how many were tried.
+    shapes: how many were tried; directions: what it does to the errors in that which explains
+    most, beyond what the free parameters could, shape (2 n, q).
     """
 
     ratio: float
@@ -49,6 +50,7 @@ class Score:
     starts: tuple[Array, ...]
     seen: bool
     shapes: int
+    directions: Array
 
 
 class Screen:
@@ -107,13 +109,15 @@ class Screen:
             neutral = point_of(kind, [spec.default for spec in kind.specs()])
             options = each(partial(self._as_it_stands, space), starts)
             options.append(self._amounts(space, kind, slopes_of, neutral))
-        ratio, shapes = max(option.fall for option in options), len(starts) if kind.shape else 1
+        best = max(options, key=lambda option: option.fall)
+        shapes = len(starts) if kind.shape else 1
         return Score(
-            ratio,
-            min(1.0, shapes * float(stats.chi2.sf(ratio, len(kind.specs())))),
+            best.fall,
+            min(1.0, shapes * float(stats.chi2.sf(best.fall, len(kind.specs())))),
             self._best(space, options),
             any(option.seen for option in options),
             shapes,
+            best.directions,
         )
 
     @cached_property
@@ -154,7 +158,7 @@ class Screen:
         change = np.zeros(len(point))
         change[[size + i for i in turned]] = amount
         change[:size] = self.adaptation(slopes, amount)[:size]
-        return _Option(fall, self._shares(space, point, change), _is_seen(flat, slopes))
+        return _Option(fall, self._shares(space, point, change), _is_seen(flat, slopes), flat)
 
     def _shares(self, space: Space, point: Array, change: Array) -> tuple[Array, ...]:
         """Return points on the way along a change, with and without what it does to others."""
@@ -169,7 +173,7 @@ class Screen:
         point = np.concatenate([self.fit.u, start])
         change = (self._errors_at(space, point) - self.fit.whitened)[..., None]
         fall, _, flat = self.explained(change)
-        return _Option(fall, (point,), _is_seen(flat, change))
+        return _Option(fall, (point,), _is_seen(flat, change), flat)
 
     def _errors_at(self, space: Space, point: Array) -> Array:
         return whitened(self.fit.stretches, space.model(point), self.fit.gains, self.fit.sigma)
@@ -207,11 +211,12 @@ class Screen:
 
 @dataclass(frozen=True)
 class _Option:
-    """Points at one of which a full fit may begin, and how much that promises."""
+    """Points at one of which a full fit may begin, and how much that promises; as in Score."""
 
     fall: float
     points: tuple[Array, ...]
     seen: bool
+    directions: Array
 
 
 def _is_seen(flat: Array, slopes: Array) -> bool:

@@ -13,11 +13,13 @@ from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import (
     approach,
     begun_anew,
+    complete,
     fit_without,
     on_recordings,
     refitted,
 )
 from diffbot_sim.identification.selection.evidence import Evidence, compare
+from diffbot_sim.identification.selection.hidden import hidden
 from diffbot_sim.identification.selection.rivals import comes_up
 from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.selection.trials import (
@@ -123,10 +125,8 @@ def select(
 ) -> Selection:
     """Search the structures made of these effects, which were tried on the nominal one first."""
     path = [first]
-    while (best := path[-1].best) is not None:
-        progress(f'{best.space.kinds[-1].name} enters')
-        more = kinds if len(path) < MOST_EFFECTS else ()
-        path.append(tried_on(shaken(begun_anew(best)), more, held_out, progress))
+    while (ahead := _ahead(path, kinds, held_out, progress)) is not None:
+        path.append(ahead)
     fits = [tried.screen.fit for tried in path]
     last = {trial.kind.name: trial for tried in path for trial in tried.trials}
     looks = _looks(last.values())
@@ -140,14 +140,40 @@ def select(
     return Selection(fits[0], final, tuple(reversed(trials)), without, support, alternatives)
 
 
+def _ahead(
+    path: Sequence[Tried],
+    kinds: Sequence[type[Effect]],
+    held_out: Sequence[Stretch],
+    progress: Progress,
+) -> Tried | None:
+    """Return the structure with one effect more, None where nothing enters.
+
+    Where none does by itself, one goes ahead that may be hidden, if another enters beside it. The
+    backward search keeps neither unless each is needed beside the other.
+    """
+    last, more = path[-1], kinds if len(path) < MOST_EFFECTS else ()
+    if last.best is not None:
+        progress(f'{last.best.space.kinds[-1].name} enters')
+        return tried_on(shaken(begun_anew(last.best)), more, held_out, progress)
+    for kind in hidden(last.screen, more):
+        progress(f'trying others beside {kind.name}')
+        alone = complete(approach(last.screen, kind, last.screen.score(kind)))
+        beside = tried_on(shaken(begun_anew(alone)), more, held_out, progress)
+        if beside.best is not None:
+            return beside
+    return None
+
+
 def _looks(trials: Iterable[Trial]) -> dict[str, int]:
     """Return how many shapes of each effect were tried."""
     return {trial.kind.name: trial.looks for trial in trials}
 
 
 def _with_outcome(trial: Trial, chosen: Container[str], left: Mapping[str, str]) -> Trial:
-    """Return a trial with what came of it after it was accepted; left: why effects left again."""
-    if not trial.accepted or trial.kind.name in chosen:
+    """Return a trial with what came of it in the end; left: why effects left again."""
+    if trial.kind.name in chosen:
+        return replace(trial, outcome=SUPPORTED)
+    if not trial.accepted:
         return trial
     return replace(trial, outcome=left.get(trial.kind.name, CROWDED))
 

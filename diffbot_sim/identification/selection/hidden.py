@@ -1,0 +1,81 @@
+"""Effects that hide each other: what one does, the other undoes, or what calibration takes for it.
+
+A search that adds one effect at a time sees neither of them.
+"""
+
+from collections.abc import Sequence
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+from scipy import stats
+
+from diffbot_sim.identification.selection.screening import Score, Screen
+from diffbot_sim.identification.statistics.guards import may_be_chance
+from diffbot_sim.physics.effects import Effect
+from diffbot_sim.records import Array
+
+# Of what may be hidden so many are asked what enters beside them.
+MOST_HIDDEN = 2
+
+
+class _Pair(NamedTuple):
+    """Two effects, the one that explains more by itself first, and what both are worth in BIC."""
+
+    kinds: tuple[type[Effect], type[Effect]]
+    worth: float
+
+
+def hidden(screen: Screen, kinds: Sequence[type[Effect]]) -> list[type[Effect]]:
+    """Return effects beside which another one should enter, by first order, the likeliest first.
+
+    Each is one of two that together explain what chance would not, and of which either is worth
+    its price beside the other. screen: of a structure that none of the kinds enters by itself.
+    """
+    scores = {kind: screen.score(kind) for kind in kinds if kind not in screen.fit.space.kinds}
+    seen = [kind for kind, score in scores.items() if score.seen]
+    pairs = _Pairs(screen, {kind: scores[kind] for kind in seen})
+    found = [pair for two in combinations(seen, 2) if (pair := pairs.of(*two)) is not None]
+    found.sort(key=lambda pair: -pair.worth)
+    return list(dict.fromkeys(pair.kinds[0] for pair in found))[:MOST_HIDDEN]
+
+
+class _Pairs:
+    """What effects explain together, to first order."""
+
+    def __init__(self, screen: Screen, scores: dict[type[Effect], Score]) -> None:
+        self._screen, self._scores = screen, scores
+        self._tried = len(scores) * (len(scores) - 1) // 2
+        columns, self._places = list[Array](), dict[type[Effect], list[int]]()
+        for kind, score in scores.items():
+            first = sum(column.shape[1] for column in columns)
+            self._places[kind] = list(range(first, first + score.directions.shape[1]))
+            columns.append(score.directions / np.linalg.norm(score.directions, axis=0))
+        all_of_them = np.concatenate(columns, axis=1) if columns else np.empty((0, 0))
+        self._gram = all_of_them.T @ all_of_them
+        self._along = all_of_them.T @ screen.residual if columns else np.empty(0)
+
+    def of(self, one: type[Effect], other: type[Effect]) -> _Pair | None:
+        """Return two effects as a pair, None unless both are needed."""
+        both, alone = self._fall(one, other), {kind: self._fall(kind) for kind in (one, other)}
+        first, second = sorted(alone, key=lambda kind: -alone[kind])
+        prices = {kind: self._screen.price(kind) for kind in alone}
+        worth = both - sum(prices.values())
+        if self._is_chance(both, worth, one, other):
+            return None
+        if both - alone[first] <= prices[second] or both - alone[second] <= prices[first]:
+            return None
+        return _Pair((first, second), worth)
+
+    def _fall(self, *kinds: type[Effect]) -> float:
+        """Return by how much effects together lower the deviance."""
+        places = [place for kind in kinds for place in self._places[kind]]
+        along = self._along[places]
+        gram = self._gram[np.ix_(places, places)]
+        return float(along @ np.linalg.pinv(gram, rcond=1e-10, hermitian=True) @ along)
+
+    def _is_chance(self, fall: float, worth: float, *kinds: type[Effect]) -> bool:
+        shapes = float(np.prod([self._scores[kind].shapes for kind in kinds]))
+        numbers = sum(len(kind.specs()) for kind in kinds)
+        p_value = min(1.0, shapes * float(stats.chi2.sf(fall, numbers)))
+        return may_be_chance(p_value, worth, self._tried)
