@@ -1,5 +1,7 @@
 """Effects that hide each other, to first order: what is needed beside what."""
 
+from dataclasses import replace
+
 from fits import fitted
 from rehearsal import Surroundings, random_forces, rehearse
 
@@ -9,15 +11,22 @@ from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.physics.effects.actuator_gain import ActuatorGain
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
+from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.physics.effects.wheel_friction_asymmetry import WheelFrictionAsymmetry
+from diffbot_sim.records import Commands
 
-KINDS = [ActuatorGain, WheelFrictionAsymmetry, QuadraticDrag]
+NOISY = Surroundings(0.015, 0.03)
+KINDS = [ActuatorGain, WheelFrictionAsymmetry, QuadraticDrag, Slope]
 
 
-def hidden_in(*effects: Effect) -> list[type[Effect]]:
-    """Return what may be hidden in a noisy drive of a robot with these effects."""
-    drive = random_forces(4, 60.0, -9.0, 11.0)
-    fit, _ = fitted(rehearse(Model(effects=effects), drive, Surroundings(0.015, 0.03), 4))
+DRIVE = random_forces(4, 60.0, -9.0, 11.0)
+
+
+def hidden_in(
+    *effects: Effect, drive: Commands = DRIVE, around: Surroundings = NOISY
+) -> list[type[Effect]]:
+    """Return what may be hidden in a drive of a robot with these effects."""
+    fit, _ = fitted(rehearse(Model(effects=effects), drive, around, 4))
     return hidden(Screen(fit), KINDS)
 
 
@@ -32,3 +41,8 @@ def test_one_of_two_that_undo_each_other_may_be_hidden() -> None:
 
 def test_what_needs_no_other_is_not_hidden() -> None:
     assert hidden_in(QuadraticDrag(0.5)) == []
+
+
+def test_what_shows_in_turns_alone_hides_nothing_in_a_robot_that_never_turns() -> None:
+    straight = replace(DRIVE, force=DRIVE.force.mean(axis=1, keepdims=True).repeat(2, axis=1))
+    assert hidden_in(drive=straight, around=Surroundings(omega_noise=0.0)) == []

@@ -7,14 +7,16 @@ import pytest
 from fits import SMOOTH, fitted
 from rehearsal import Surroundings, random_forces, rehearse
 
+from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, complete
 from diffbot_sim.identification.selection.evidence import compare, likelihood_ratio, rise_without
 from diffbot_sim.identification.selection.screening import Screen
-from diffbot_sim.identification.selection.stepwise import select, tried_on
+from diffbot_sim.identification.selection.stepwise import Selection, Tried, select, tried_on
 from diffbot_sim.identification.selection.trials import (
     CHANCE,
     ESSENTIAL_SHARE,
     NEEDLESS,
+    OUTDONE,
     SUPPORTED,
     try_all,
 )
@@ -26,6 +28,8 @@ from diffbot_sim.physics.effects.friction_drift import FrictionDrift
 from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
 from diffbot_sim.physics.effects.voltage_limit import VoltageLimit
 from diffbot_sim.physics.effects.wheel_friction_asymmetry import WheelFrictionAsymmetry
+
+Held = tuple[Stretch, ...]
 
 
 @pytest.mark.parametrize(('coefficient', 'names'), [(0.05, []), (0.1, ['quadratic_drag'])])
@@ -67,17 +71,30 @@ def test_limit_that_acts_for_moments_enters_where_other_data_confirm_it() -> Non
     assert trial.accepted
 
 
-def test_effects_that_hide_each_other_are_found_together() -> None:
+@pytest.fixture(scope='module')
+def hiding() -> tuple[Tried, Selection, Held]:
+    """Return trials and search where each of two effects undoes what the other does."""
     acting = (ActuatorGain(0.008), WheelFrictionAsymmetry(0.012, 0.012))
     drive, noisy = random_forces(4, 60.0, -9.0, 11.0), Surroundings(0.015, 0.03)
     fit, held_out = fitted(rehearse(Model(effects=acting), drive, noisy, 4))
     kinds = [ActuatorGain, WheelFrictionAsymmetry, QuadraticDrag]
     first = tried_on(fit, kinds, held_out, lambda text: None)
+    return first, select(first, kinds, held_out, lambda text: None), held_out
+
+
+def test_effects_that_hide_each_other_are_found_together(
+    hiding: tuple[Tried, Selection, Held],
+) -> None:
+    first, found, _ = hiding
     assert first.best is None
-    found = select(first, kinds, held_out, lambda text: None)
     assert set(found.support) == {'actuator_gain', 'wheel_friction_asymmetry'}
     outcomes = {told.kind.name: told.outcome for told in found.trials}
     assert outcomes == {**dict.fromkeys(found.support, SUPPORTED), 'quadratic_drag': CHANCE}
+
+
+def test_what_was_hidden_goes_with_what_hid_it(hiding: tuple[Tried, Selection, Held]) -> None:
+    _, found, held_out = hiding
+    assert found.withdrawn('actuator_gain', held_out, OUTDONE).support == {}
 
 
 def test_what_is_found_counts_the_shapes_tried() -> None:

@@ -50,7 +50,8 @@ class _Pairs:
         for kind, score in scores.items():
             first = sum(column.shape[1] for column in columns)
             self._places[kind] = list(range(first, first + score.directions.shape[1]))
-            columns.append(score.directions / np.linalg.norm(score.directions, axis=0))
+            size = np.linalg.norm(score.directions, axis=0)
+            columns.append(score.directions / np.where(size > 0.0, size, 1.0))
         all_of_them = np.concatenate(columns, axis=1) if columns else np.empty((0, 0))
         self._gram = all_of_them.T @ all_of_them
         self._along = all_of_them.T @ screen.residual if columns else np.empty(0)

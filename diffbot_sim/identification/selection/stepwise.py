@@ -61,7 +61,10 @@ class Selection:
         return {trial.kind.name: trial.kind.excitation for trial in self.trials}
 
     def withdrawn(self, name: str, held_out: Sequence[Stretch], why: str) -> 'Selection':
-        """Return the selection without one of the effects chosen, the others weighed anew."""
+        """Return the selection without one of the effects chosen, the others weighed anew.
+
+        Those that were worth something beside it only, as where both hid each other, go with it.
+        """
         kept = [key for key in self.support if key != name]
         trials = tuple(
             replace(trial, outcome=why) if trial.kind.name == name else trial
@@ -69,7 +72,15 @@ class Selection:
         )
         alternatives = {key: self.alternatives[key] for key in kept}
         less = replace(self, trials=trials, alternatives=alternatives)
-        return less._weighed(self.without[name], kept, held_out)
+        left = less._weighed(self.without[name], kept, held_out)
+        needless = {
+            key: it.delta_bic
+            for key, it in left.support.items()
+            if judge_again(it, len(trials)) == NEEDLESS
+        }
+        if not needless:
+            return left
+        return left.withdrawn(min(needless, key=lambda key: needless[key]), held_out, NEEDLESS)
 
     def fitted_anew(
         self, base: Fit, recordings: Recordings, held_out: Sequence[Stretch]
