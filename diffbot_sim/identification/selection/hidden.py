@@ -1,4 +1,4 @@
-"""Effects that hide each other: what one does, the other undoes, or what calibration takes for it.
+"""Effects that hide each other: one undoes what the other does, or what calibration makes of it.
 
 A search that adds one effect at a time sees neither of them.
 """
@@ -10,13 +10,14 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 
+from diffbot_sim.identification.selection.candidates import approach
 from diffbot_sim.identification.selection.screening import Score, Screen
 from diffbot_sim.identification.statistics.guards import may_be_chance
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
 
-# Of what may be hidden so many are asked what enters beside them.
-MOST_HIDDEN = 2
+# So many of the pairs that promise most are fitted for a short while.
+MOST_FITTED = 3
 
 
 class _Pair(NamedTuple):
@@ -27,17 +28,28 @@ class _Pair(NamedTuple):
 
 
 def hidden(screen: Screen, kinds: Sequence[type[Effect]]) -> list[type[Effect]]:
-    """Return effects beside which another one should enter, by first order, the likeliest first.
+    """Return effects beside which another one should enter, the likeliest first.
 
-    Each is one of two that together explain what chance would not, and of which either is worth
-    its price beside the other. screen: of a structure that none of the kinds enters by itself.
+    Each is one of two that together explain, to first order, what chance would not, of which
+    either is worth its price beside the other, and that are worth theirs when a few steps have
+    been made. screen: of a structure that none of the kinds enters by itself.
     """
     scores = {kind: screen.score(kind) for kind in kinds if kind not in screen.fit.space.kinds}
     seen = [kind for kind, score in scores.items() if score.seen]
     pairs = _Pairs(screen, {kind: scores[kind] for kind in seen})
     found = [pair for two in combinations(seen, 2) if (pair := pairs.of(*two)) is not None]
-    found.sort(key=lambda pair: -pair.worth)
-    return list(dict.fromkeys(pair.kinds[0] for pair in found))[:MOST_HIDDEN]
+    promising = sorted(found, key=lambda pair: -pair.worth)[:MOST_FITTED]
+    kept = [pair for pair in promising if _is_worth_its_price(screen, pair)]
+    return list(dict.fromkeys(pair.kinds[0] for pair in kept))
+
+
+def _is_worth_its_price(screen: Screen, pair: _Pair) -> bool:
+    """Say whether two effects lower the BIC by a few steps: first order promises much."""
+    base, (first, second) = screen.fit, pair.kinds
+    beside = Screen(approach(screen, first, screen.score(first)))
+    both = approach(beside, second, beside.score(second))
+    fall = base.deviance(base.sigma) - both.deviance(base.sigma)
+    return fall > screen.price(first) + screen.price(second)
 
 
 class _Pairs:
