@@ -31,6 +31,7 @@ def answer(robot: Robot, second: int) -> TwistStamped:
     """Tell the driver of a moment; return the twist that answers it."""
     stamp = odometry(second).header.stamp
     heard = robot.heard['cmd_vel']
+    heard.clear()
     with robot.publishing('odom', odometry(second)):
         robot.until(lambda: any(message.header.stamp == stamp for message in heard))
     return heard[-1]
