@@ -173,6 +173,14 @@ class Robot:
         self.node.destroy_timer(timer)
         self.node.destroy_publisher(publisher)
 
+    def answer(self, topic: str, about: Odometry) -> Any:
+        """Publish odometry until a message that is collected bears its stamp; return the last."""
+        heard = self.heard[topic]
+        heard.clear()
+        with self.publishing('odom', about):
+            self.until(lambda: any(told.header.stamp == about.header.stamp for told in heard))
+        return heard[-1]
+
     def call(self, kind: Any, service: str, request: Any) -> Any:
         client = self.node.create_client(kind, service)
         self.until(client.service_is_ready)

@@ -6,15 +6,15 @@ from nav_msgs.msg import Odometry
 from ros_robot import PATIENCE, Robot, ros, running
 
 from diffbot_sim.nodes import conversions
+from diffbot_sim.records import NANOSECONDS
 
-SECOND = 10**9
 WORDS = ('-p', 'stamped:=true', '-p', 'duration:=20.0')
 
 
 def odometry(second: int) -> Odometry:
     message = Odometry(child_frame_id='r/base_link')
     message.header.frame_id = 'r/odom'
-    message.header.stamp = conversions.time(second * SECOND)
+    message.header.stamp = conversions.time(second * NANOSECONDS)
     return message
 
 
@@ -27,25 +27,16 @@ def driven(tmp_path_factory):
         yield robot, process
 
 
-def answer(robot: Robot, second: int) -> TwistStamped:
-    """Tell the driver of a moment; return the twist that answers it."""
-    stamp = odometry(second).header.stamp
-    heard = robot.heard['cmd_vel']
-    heard.clear()
-    with robot.publishing('odom', odometry(second)):
-        robot.until(lambda: any(message.header.stamp == stamp for message in heard))
-    return heard[-1]
-
-
 def test_twists_are_of_the_robot_and_of_the_odometry_that_they_answer(driven):
-    header = answer(driven[0], 5).header
-    assert (header.frame_id, conversions.nanoseconds(header.stamp)) == ('r/base_link', 5 * SECOND)
+    header = driven[0].answer('cmd_vel', odometry(5)).header
+    stamp = conversions.nanoseconds(header.stamp)
+    assert (header.frame_id, stamp) == ('r/base_link', 5 * NANOSECONDS)
 
 
 def test_a_drive_begins_anew_where_time_jumps_back_and_ends(driven):
     robot, process = driven
     for second in (5, 24, 3, 22):  # 19 s after its beginning, twice
-        answer(robot, second)
+        robot.answer('cmd_vel', odometry(second))
     with robot.publishing('odom', odometry(24)):
         robot.until(lambda: process.process.poll() is not None, PATIENCE)
     assert process.process.returncode == 0

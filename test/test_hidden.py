@@ -17,8 +17,6 @@ from diffbot_sim.records import Commands
 
 NOISY = Surroundings(0.015, 0.03)
 KINDS = [ActuatorGain, WheelFrictionAsymmetry, QuadraticDrag, Slope]
-
-
 DRIVE = random_forces(4, 60.0, -9.0, 11.0)
 
 
@@ -27,7 +25,7 @@ def hidden_in(
 ) -> list[type[Effect]]:
     """Return what may be hidden in a drive of a robot with these effects."""
     fit, _ = fitted(rehearse(Model(effects=effects), drive, around, 4))
-    return hidden(Screen(fit), KINDS)
+    return [near.space.kinds[-1] for near in hidden(Screen(fit), KINDS)]
 
 
 def test_nothing_is_hidden_where_nothing_is_missing() -> None:

@@ -5,19 +5,15 @@ from nav_msgs.msg import Odometry
 from ros_robot import Robot, ros, running
 
 from diffbot_sim.nodes import conversions
-
-SECOND = 10**9
+from diffbot_sim.records import NANOSECONDS
 
 
 def reference_at(robot: Robot, second: int) -> float:
     """Tell of odometry at a moment; return the reference [rad/s] that answers it."""
     message = Odometry()
-    message.header.stamp = conversions.time(second * SECOND)
-    heard = robot.heard['right_wheel/velocity_reference']
-    heard.clear()
-    with robot.publishing('odom', message):
-        robot.until(lambda: any(told.header.stamp == message.header.stamp for told in heard))
-    return float(heard[-1].twist.angular.y)
+    message.header.stamp = conversions.time(second * NANOSECONDS)
+    answer = robot.answer('right_wheel/velocity_reference', message)
+    return float(answer.twist.angular.y)
 
 
 def test_a_reference_that_ran_out_stays_so_where_time_jumps_back(tmp_path):

@@ -11,7 +11,7 @@ from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.logging import get_logger
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from rclpy.validate_topic_name import validate_topic_name
 
 from diffbot_sim.bags.parts import Limits, recording
@@ -19,6 +19,7 @@ from diffbot_sim.bags.raw import Offer, Raw, is_standard
 from diffbot_sim.errors import ConfigError
 from diffbot_sim.nodes import conversions
 from diffbot_sim.nodes.parameters import Live, build, table
+from diffbot_sim.nodes.quality import profile
 from diffbot_sim.nodes.running import overrides, parse, parser, run
 from diffbot_sim.nodes.settings import STORAGES, RecorderSettings
 from diffbot_sim.nodes.timing import steady_clock
@@ -119,11 +120,7 @@ class Recorder(Node):
         if kind is None:
             self.get_logger().warning(f'{topic}: {source.kind} is not known here; left out')
             return None
-        quality = QoSProfile(
-            depth=DEPTH,
-            reliability=ReliabilityPolicy[source.offer.reliability.upper()],
-            durability=DurabilityPolicy[source.offer.durability.upper()],
-        )
+        quality = profile(source.offer, DEPTH)
         act = partial(self._on_message, topic, source)
         met = SubscriptionEventCallbacks(matched=partial(self._on_matched, topic))
         return self.create_subscription(kind, topic, act, quality, raw=True, event_callbacks=met)

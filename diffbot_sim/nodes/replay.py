@@ -8,17 +8,18 @@ from typing import Any
 
 from rclpy.duration import Duration
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
 
-from diffbot_sim.bags.raw import kept_topics, raw_messages, span_of, topics_in
+from diffbot_sim.bags.raw import USUAL, Offer, kept_topics, raw_messages, span_of, topics_in
 from diffbot_sim.errors import BagError
 from diffbot_sim.nodes import conversions
+from diffbot_sim.nodes.quality import profile
 from diffbot_sim.nodes.running import parse, parser, run
 from diffbot_sim.nodes.targets import chosen, commands
 from diffbot_sim.nodes.transport import HELP, SOON, Transport, spin
 from diffbot_sim.records import NANOSECONDS
 
 DEPTH = 1000
+KEPT = Offer(durability='transient_local')
 PATIENCE = 5.0  # [s] to wait for listeners
 CLOCK = 40.0  # [Hz] of /clock where nobody says; that of `ros2 bag play`
 
@@ -33,7 +34,7 @@ class Replay(Node):
         targets = chosen(asked, there, bag) if asked else commands(there, bag)
         kept = kept_topics(bag)
         self._outlets = {
-            topic: self._outlet(there[topic], target, topic in kept)
+            topic: self._outlet(there[topic], target, KEPT if topic in kept else USUAL)
             for topic, target in targets.items()
         }
         if next(raw_messages(bag, self._outlets, self._start), None) is None:
@@ -73,14 +74,11 @@ class Replay(Node):
         outlets = self._outlets.values()
         return [item.topic_name for item in outlets if not item.get_subscription_count()]
 
-    def _outlet(self, kind: str, target: str, is_kept: bool) -> Any:
+    def _outlet(self, kind: str, target: str, offer: Offer) -> Any:
         message_type = conversions.message_type(kind)
         if message_type is None:
             raise BagError(f'{self._bag}: {kind} is not installed. Source its package.')
-        durability = DurabilityPolicy.TRANSIENT_LOCAL if is_kept else DurabilityPolicy.VOLATILE
-        return self.create_publisher(
-            message_type, target, QoSProfile(depth=DEPTH, durability=durability)
-        )
+        return self.create_publisher(message_type, target, profile(offer, DEPTH))
 
 
 def _moment(bag: Path, offset: float) -> int:

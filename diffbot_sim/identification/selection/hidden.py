@@ -3,16 +3,16 @@
 A search that adds one effect at a time sees neither of them.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
 
+from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.selection.candidates import approach
 from diffbot_sim.identification.selection.screening import Score, Screen
-from diffbot_sim.identification.statistics.guards import may_be_chance
+from diffbot_sim.identification.statistics.guards import chance_of_fall, may_be_chance
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
 
@@ -27,27 +27,31 @@ class _Pair(NamedTuple):
     worth: float
 
 
-def hidden(screen: Screen, kinds: Sequence[type[Effect]]) -> list[type[Effect]]:
-    """Return effects beside which another one should enter, the likeliest first.
+def hidden(screen: Screen, kinds: Sequence[type[Effect]]) -> list[Fit]:
+    """Return approached fits of effects beside which another one should enter, likeliest first.
 
-    Each is one of two that together explain, to first order, what chance would not, of which
-    either is worth its price beside the other, and that are worth theirs when a few steps have
-    been made. screen: of a structure that none of the kinds enters by itself.
+    Each effect is one of two that together explain, to first order, what chance would not, of
+    which either is worth its price beside the other, and that are worth theirs when a few steps
+    have been made. screen: of a structure that none of the kinds enters by itself.
     """
     scores = {kind: screen.score(kind) for kind in kinds if kind not in screen.fit.space.kinds}
     seen = [kind for kind, score in scores.items() if score.seen]
     pairs = _Pairs(screen, {kind: scores[kind] for kind in seen})
     found = [pair for two in combinations(seen, 2) if (pair := pairs.of(*two)) is not None]
     promising = sorted(found, key=lambda pair: -pair.worth)[:MOST_FITTED]
-    kept = [pair for pair in promising if _is_worth_its_price(screen, pair)]
-    return list(dict.fromkeys(pair.kinds[0] for pair in kept))
+    leading = dict.fromkeys(pair.kinds[0] for pair in promising)
+    near = {kind: Screen(approach(screen, kind, scores[kind])) for kind in leading}
+    kept = [pair for pair in promising if _is_worth_its_price(screen, near, pair)]
+    return [near[kind].fit for kind in dict.fromkeys(pair.kinds[0] for pair in kept)]
 
 
-def _is_worth_its_price(screen: Screen, pair: _Pair) -> bool:
-    """Say whether two effects lower the BIC by a few steps: first order promises much."""
+def _is_worth_its_price(screen: Screen, near: Mapping[type[Effect], Screen], pair: _Pair) -> bool:
+    """Say whether two effects lower the BIC by a few steps: first order promises much.
+
+    near: screens of the fits that approached the first one of each pair.
+    """
     base, (first, second) = screen.fit, pair.kinds
-    beside = Screen(approach(screen, first, screen.score(first)))
-    both = approach(beside, second, beside.score(second))
+    both = approach(near[first], second, near[first].score(second))
     fall = base.deviance(base.sigma) - both.deviance(base.sigma)
     return fall > screen.price(first) + screen.price(second)
 
@@ -90,5 +94,4 @@ class _Pairs:
     def _is_chance(self, fall: float, worth: float, *kinds: type[Effect]) -> bool:
         shapes = float(np.prod([self._scores[kind].shapes for kind in kinds]))
         numbers = sum(len(kind.specs()) for kind in kinds)
-        p_value = min(1.0, shapes * float(stats.chi2.sf(fall, numbers)))
-        return may_be_chance(p_value, worth, self._tried)
+        return may_be_chance(chance_of_fall(fall, numbers, shapes), worth, self._tried)

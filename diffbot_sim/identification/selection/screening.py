@@ -6,7 +6,6 @@ from functools import cached_property, partial
 from operator import itemgetter
 
 import numpy as np
-from scipy import stats
 
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import Fit, whitened
@@ -15,6 +14,7 @@ from diffbot_sim.identification.fitting.response import Response, responses
 from diffbot_sim.identification.fitting.views import views
 from diffbot_sim.identification.recordings.stretches import largest_command
 from diffbot_sim.identification.selection.onsets import Onsets
+from diffbot_sim.identification.statistics.guards import chance_of_fall
 from diffbot_sim.identification.statistics.minimisation import slope
 from diffbot_sim.identification.statistics.parallel import each
 from diffbot_sim.identification.statistics.projection import Projection
@@ -113,7 +113,7 @@ class Screen:
         shapes = len(starts) if kind.shape else 1
         return Score(
             best.fall,
-            min(1.0, shapes * float(stats.chi2.sf(best.fall, len(kind.specs())))),
+            chance_of_fall(best.fall, len(kind.specs()), shapes),
             self._best(space, options),
             any(option.seen for option in options),
             shapes,

@@ -119,6 +119,10 @@ class Tried(NamedTuple):
         _, best = max(accepted, key=itemgetter(0), default=(0.0, None))
         return best
 
+    def fit_of(self, kind: type[Effect]) -> Fit | None:
+        """Return the fit of an effect to its end, None where it was not fitted so far."""
+        return next((trial.fit for trial in self.trials if trial.kind is kind), None)
+
 
 def tried_on(
     fit: Fit, kinds: Sequence[type[Effect]], held_out: Sequence[Stretch], progress: Progress
@@ -166,9 +170,9 @@ def _ahead(
     if last.best is not None:
         progress(f'{last.best.space.kinds[-1].name} enters')
         return tried_on(shaken(begun_anew(last.best)), more, held_out, progress)
-    for kind in hidden(last.screen, more):
-        progress(f'trying others beside {kind.name}')
-        alone = complete(approach(last.screen, kind, last.screen.score(kind)))
+    for near in hidden(last.screen, more):
+        progress(f'trying others beside {near.space.kinds[-1].name}')
+        alone = last.fit_of(near.space.kinds[-1]) or complete(near)
         beside = tried_on(shaken(begun_anew(alone)), more, held_out, progress)
         if beside.best is not None:
             return beside

@@ -5,8 +5,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import nan
 
-from scipy import stats
-
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.negligible import simulates_alike, uncorrected
 from diffbot_sim.identification.fitting.shaking import shaken
@@ -26,6 +24,7 @@ from diffbot_sim.identification.statistics.guards import (
     BLOCK_LEVEL,
     ELSEWHERE_LEVEL,
     VERY_STRONG,
+    chance_of_fall,
     lasting,
     may_be_chance,
 )
@@ -215,7 +214,7 @@ def _dismissed(screen: Screen, kind: type[Effect], score: Score) -> Trial:
 
 
 def _not_fitted(screen: Screen, kind: type[Effect], fall: float, outcome: str) -> Trial:
-    p_value = float(stats.chi2.sf(max(fall, 0.0), len(kind.specs())))
+    p_value = chance_of_fall(fall, len(kind.specs()))
     return Trial(kind, None, _first_order(screen, kind, fall, p_value), outcome)
 
 

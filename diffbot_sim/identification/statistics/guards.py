@@ -39,6 +39,11 @@ IMPOSSIBLE = 1e-300
 AGAINST = 0.5
 
 
+def chance_of_fall(fall: float, numbers: int, shapes: float = 1.0) -> float:
+    """Return the chance that so many numbers lower the deviance so, in the best of some shapes."""
+    return min(1.0, shapes * float(stats.chi2.sf(fall, numbers)))
+
+
 def is_chance(p_value: float, tried: int) -> bool:
     """Say whether chance may explain as much, with so many tried."""
     return p_value * tried > LIKELIHOOD_LEVEL
