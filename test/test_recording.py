@@ -9,9 +9,12 @@ from time import time_ns
 
 import numpy as np
 import pytest
+from builtin_interfaces.msg import Time
 from geometry_msgs.msg import WrenchStamped
+from nav_msgs.msg import Odometry
 from ros_robot import Robot, Running, refusal, running
 from rosbags.rosbag2 import Reader
+from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty
 
 from diffbot_sim.bags import read_run
@@ -184,6 +187,41 @@ def test_a_recorder_that_gets_no_time_loses_no_message(robot, simulator, tmp_pat
     assert len(run.odometry.time) > 300
     for time in (run.odometry.time, run.commands.time):
         np.testing.assert_allclose(np.diff(time), 0.01, atol=1e-6)
+
+
+@contextmanager
+def recording_simulated(folder: Path) -> Iterator[tuple[Robot, Running]]:
+    """Record odometry to folder/bag by a clock that nobody has published yet."""
+    words = ('--ros-args', '-r', '__ns:=/simulated', '-p', 'use_sim_time:=true')
+    chosen = ('-o', str(folder / 'bag'), '--topics', 'odom')
+    with (
+        Robot('/simulated') as robot,
+        running(folder / 'log', 'recorder', *chosen, *words) as node,
+        robot.publishing('odom', Odometry()),
+    ):
+        robot.until(lambda: 'waits for /clock' in node.said())
+        yield robot, node
+
+
+def test_what_comes_before_simulation_time_begins_is_recorded_as_it_begins(tmp_path):
+    with recording_simulated(tmp_path) as (robot, recorder):
+        with robot.publishing('/clock', Clock(clock=Time(sec=5))):
+            robot.hear(40)
+        assert recorder.stop() == 0
+    with Reader(tmp_path / 'bag') as reader:
+        received = [stamp for _, stamp, _ in reader.messages()]
+    assert len(received) > 1
+    assert set(received) == {5_000_000_000}
+
+
+def test_without_a_clock_messages_are_recorded_as_they_were_received(tmp_path):
+    begin = time_ns()
+    with recording_simulated(tmp_path) as (_, recorder):
+        assert recorder.stop() == 0
+    assert 'no /clock came' in recorder.said()
+    with Reader(tmp_path / 'bag') as reader:
+        assert all(begin < stamp < time_ns() for _, stamp, _ in reader.messages())
+        assert reader.message_count > 0
 
 
 def test_an_unfinished_bag_is_told(tmp_path):

@@ -58,6 +58,7 @@ class Recorder(Node):
         self._sources: dict[str, Source] = {}
         self._listeners: dict[str, Any] = {}
         self._heard: dict[str, int] = {}  # when the last message of a topic came [ns]
+        self._early: list[tuple[Raw, Offer]] = []  # what came before the simulation's time
         self._wanted = settings.topics
         _check_names(self._wanted)
         self._look()
@@ -74,12 +75,15 @@ class Recorder(Node):
         super().destroy_node()
 
     def _finish(self) -> None:
+        # Not the node's own logger: it would complain that /rosout is gone already.
+        log = get_logger(f'{self.get_logger().name}.end')
+        if self._early:
+            log.warning('no /clock came: messages are recorded at the times of their receipt')
+        for message, offer in self._early:
+            self._writer.write(message, offer)
         self._writer.close()
         if silent := [topic for topic in self._wanted if topic not in self._heard]:
-            # Not the node's own logger: it would complain that /rosout is gone already.
-            get_logger(f'{self.get_logger().name}.end').warning(
-                f'nothing came on {", ".join(silent)}'
-            )
+            log.warning(f'nothing came on {", ".join(silent)}')
 
     def _flush(self) -> None:
         self._writer.flush()
@@ -134,15 +138,29 @@ class Recorder(Node):
             self.get_logger().info(f'hears {topic}')
         stamp = self._heard[topic] = self._received(topic, info)
         name = self._listeners[topic].topic_name
-        self._writer.write(Raw(stamp, name, source.kind, data), source.offer)
+        write = self._write_simulated if self._is_simulated() else self._writer.write
+        write(Raw(stamp, name, source.kind, data), source.offer)
+
+    def _is_simulated(self) -> bool:
+        return bool(self.get_parameter('use_sim_time').value)
+
+    def _write_simulated(self, message: Raw, offer: Offer) -> None:
+        """Write a message at the simulation's time; one that comes before that waits for it."""
+        now = self.get_clock().now().nanoseconds
+        if not now:
+            self._early.append((message, offer))
+            self.get_logger().info('waits for /clock', once=True)
+            return
+        for early, offered in self._early:
+            self._writer.write(early._replace(stamp=now), offered)
+        self._early.clear()
+        self._writer.write(message._replace(stamp=now), offer)
 
     def _received(self, topic: str, info: Any) -> int:
         """Return when a message came [ns]: as the middleware says, for this node may be busy.
 
         Messages are handed over in order, though after a stall later ones may have come first.
         """
-        if self.get_parameter('use_sim_time').value:
-            return self.get_clock().now().nanoseconds
         stamp, last = int(info['received_timestamp']), self._heard.get(topic, 0)
         return last if stamp < last < stamp + LONGEST_WAIT else stamp
 
