@@ -5,6 +5,7 @@ from functools import cached_property, partial
 from math import log
 from typing import NamedTuple
 
+from diffbot_sim.identification.fitting.filtering import filter_behind
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.leading import led_by
 from diffbot_sim.identification.recordings.intervals import median_interval
@@ -101,6 +102,10 @@ class Ages:
                 return older
         return None
 
+    def taken(self, older: Older) -> tuple[Fit, ...]:
+        """The structure that was found on older twists, as it is and less what makes it late."""
+        return self._again[older], self._less_late[older]
+
     def timely(self, older: Older) -> Fit:
         """Return the structure that was found on older twists, less what makes a robot late.
 
@@ -187,9 +192,13 @@ def is_beyond_doubt(
 ) -> bool:
     """Say whether a fit that takes twists as older is far better than as they are stamped.
 
-    Then the same structure is held against it, of a robot that is late besides.
+    Then the same structure is held against it, of a robot that is late besides, or a filter.
     """
-    return older.worth(_late_as_stamped(final, recordings, kinds), final) > FAR
+    late = _late_as_stamped(final, recordings, kinds)
+    if older.worth(late, final) <= FAR:
+        return False
+    behind = filter_behind(late)
+    return behind is None or not behind.outdoes(late, final)
 
 
 def _late_as_stamped(final: Fit, recordings: Recordings, kinds: Sequence[type[Effect]]) -> Fit:

@@ -70,9 +70,11 @@ def _held_against_older(found: Found, taken: _Taken, question: Question) -> Foun
     """Hold what was found against searches in twists that are older, or went through a filter."""
     # Doubt may have withdrawn a name for what late twists left beside it.
     first = found.undoubted.final
-    ages = Ages(first, found.recordings)
+    ages, behind = Ages(first, found.recordings), filter_behind(first)
     unexplained = 0.0 if found.unexplained is None else found.unexplained.worth
     for older in ages.likely if found.says_something else ():
+        if behind is not None and _outdoes(behind, first, ages, older):
+            continue
         other = taken.as_older(older)
         ends = (other.undoubted.final, ages.timely(older))
         if any(is_taken(older, first, end, unexplained) for end in ends):
@@ -80,18 +82,27 @@ def _held_against_older(found: Found, taken: _Taken, question: Question) -> Foun
         lead = max(lead_of_means(older, first, end, unexplained) for end in ends)
         if lead > 0.0:
             return _taken_as_led(other.recordings, lead, question)
-    return replace(_unfiltered(found, question), undecided=ages.is_undecided)
+    unfiltered = found if behind is None else _unfiltered(found, behind, question)
+    return replace(unfiltered, undecided=ages.is_undecided)
+
+
+def _outdoes(behind: Filter, fit: Fit, ages: Ages, older: Older) -> bool:
+    """Say whether a filter explains more of what a fit leaves than twists that are older do."""
+    return all(behind.outdoes(fit, taken) for taken in ages.taken(older))
 
 
 def _filtered_beyond_doubt(begun: Begun, tried: Tried, question: Question) -> Found | None:
     """Search where a filter of the twists is undone, if the first effect to enter stands for one.
 
-    Means are no filters. Nothing else needs to be searched if nothing is unexplained then, and the
+    Nothing else needs to be searched if means explain less, nothing is unexplained then, and the
     filter stands up to what is found, too.
     """
     first = tried.best
     behind = None if first is None else filter_behind(first)
-    if first is None or behind is None or Ages(first, begun.recordings).likely:
+    if first is None or behind is None:
+        return None
+    ages = Ages(first, begun.recordings)
+    if not all(_outdoes(behind, first, ages, older) for older in ages.likely):
         return None
     found = _undoing(behind, begun.recordings, question)
     if found.unexplained or not _is_of_filter(first, found.undoubted.final):
@@ -100,23 +111,22 @@ def _filtered_beyond_doubt(begun: Begun, tried: Tried, question: Question) -> Fo
 
 
 def _is_of_filter(first: Fit, final: Fit) -> bool:
-    """Say whether a late effect, the last of a first fit, stands for a filter beside others, too.
+    """Say whether a late effect, the last of a first fit, tells of a filter beside others, too.
 
     final: what was found on twists that went through none.
     """
-    late, others = first.space.kinds[-1], final.space.kinds
-    if late in others or not others:
-        return not others
-    space = Space(first.space.declared, (*others, late))
-    start = np.append(final.u, first.u[first.space.places(late.name)])
-    return filter_behind(fit_prediction(space, first.stretches, start, first.gains)) is not None
+    if not final.space.kinds:
+        return True
+    late, space, start = first.space.kinds[-1], final.space, final.u
+    if late not in space.kinds:
+        space = Space(space.declared, (*space.kinds, late))
+        start = np.append(start, first.u[first.space.places(late.name)])
+    beside = fit_prediction(space, first.stretches, start, first.gains)
+    return filter_behind(beside) is not None
 
 
-def _unfiltered(found: Found, question: Question) -> Found:
+def _unfiltered(found: Found, behind: Filter, question: Question) -> Found:
     """Search again where what is left of a filter may be held against the names found."""
-    behind = filter_behind(found.undoubted.final)
-    if behind is None:
-        return found
     other = _undoing(behind, found.recordings, question)
     # What is undone must not bring about what was not there, and speaks as loudly.
     if other.unexplained and not found.unexplained and other.unexplained.worth > behind.worth:

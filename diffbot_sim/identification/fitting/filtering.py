@@ -5,7 +5,7 @@ passes the noise: errors that are white before a filter are not after it. Noise 
 something else; then its colour and the lag have time constants of their own.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import exp, inf, log
@@ -59,12 +59,16 @@ AGES: tuple[Age, ...] = (told_each_sample, told_often)
 class Filter(NamedTuple):
     """A first-order filter of twists: its time constant [s], and how old what it is told is.
 
-    worth: by how much it lowers -2 log-likelihood in place of an effect.
+    worth: by how much it lowers -2 log-likelihood, in place of an effect or beside it.
     """
 
     time_constant: float
     age: Age
     worth: float = 0.0
+
+    def outdoes(self, fit: Fit, other: Fit) -> bool:
+        """Say whether it explains more of what a fit leaves than another fit does."""
+        return self.worth > _cost(fit) - _cost(other)
 
     def undone(self, time: Array, twist: Array) -> tuple[Array, Array]:
         """Return the stamps and twists that it was given; the first sample as it is."""
@@ -93,10 +97,10 @@ def filter_behind(fit: Fit) -> Filter | None:
         return None
     if np.any(resolution(np.concatenate([s.twist for s in fit.stretches])) > fit.sigma):
         return None
-    values = fit.space.values(fit.u)
+    values, cost = fit.space.values(fit.u), _cost(fit)
     late = [(e, values.get(name, 0.0)) for name, e in zip(LATE, LATE_EFFECTS, strict=True)]
-    looks = [_Look(fit, e, near, age) for (e, near), age in product(late, AGES) if near > 0.0]
-    cost = _cost(fit)
+    asked = ((e, near, age) for (e, near), age in product(late, AGES) if near > 0.0)
+    looks = [look for how in asked for look in _looks(fit, *how)]
     found = [look.best() for look in looks if look.cost(look.near) <= cost + look.allowed]
     least, behind = min(found, key=itemgetter(0), default=(inf, None))
     if behind is None or least >= _cost_of_colour(fit) + VERY_STRONG:
@@ -108,25 +112,20 @@ def filter_behind(fit: Fit) -> Filter | None:
 
 @dataclass(frozen=True)
 class _Look:
-    """A filter that may take the place of an effect; near [s]: how late that is."""
+    """A filter that may be there.
 
-    fit: Fit
-    effect: str
+    left: what is fitted once it is undone, from where; near [s]: about its time constant;
+    allowed: by how much more than without it the cost may be.
+    """
+
+    left: Fit
     near: float
     age: Age
-
-    @property
-    def allowed(self) -> float:
-        """How much higher the cost may be: what is late by less than an interval is odometry."""
-        stretches = self.fit.stretches
-        if self.near >= min(stretch.interval for stretch in stretches):
-            return -VERY_STRONG
-        denied = any(pose_denies_lag(stretch.run, self.near) for stretch in stretches)
-        return -VERY_STRONG if denied else VERY_STRONG
+    allowed: float
 
     def cost(self, time_constant: float) -> float:
         """Return -2 log-likelihood with a filter of this time constant."""
-        return _cost_before(self.fit, self.effect, Filter(time_constant, self.age))
+        return _cost_before(self.left, Filter(time_constant, self.age))
 
     def best(self) -> tuple[float, Filter]:
         """Return the lowest cost, and the filter that has it."""
@@ -139,13 +138,27 @@ class _Look:
         return float(found.fun), Filter(exp(found.x), self.age)
 
 
-def _cost_before(fit: Fit, effect: str, behind: Filter) -> float:
-    """Return -2 log-likelihood where a filter takes the place of an effect."""
-    undone = tuple(_before(stretch, behind) for stretch in fit.stretches)
+def _looks(fit: Fit, effect: str, near: float, age: Age) -> Iterator[_Look]:
+    """Yield a filter in the place of an effect that is late by so much [s], and one beside it."""
     space = Space(fit.space.declared, tuple(k for k in fit.space.kinds if k.name != effect))
-    start = np.delete(fit.u, fit.space.places(effect))
-    stretches = restarted(space.model(start), undone)
-    before = fit_prediction(space, stretches, start, FIRST_GAINS)
+    less = replace(fit, space=space, u=np.delete(fit.u, fit.space.places(effect)))
+    yield _Look(less, near, age, _allowed(fit.stretches, near))
+    yield _Look(fit, near / WITHIN, age, -VERY_STRONG)
+
+
+def _allowed(stretches: Sequence[Stretch], near: float) -> float:
+    """Return how much higher costs may be: what is late by less than an interval is odometry."""
+    if near >= min(stretch.interval for stretch in stretches):
+        return -VERY_STRONG
+    denied = any(pose_denies_lag(stretch.run, near) for stretch in stretches)
+    return -VERY_STRONG if denied else VERY_STRONG
+
+
+def _cost_before(left: Fit, behind: Filter) -> float:
+    """Return -2 log-likelihood of what is left once a filter is undone."""
+    undone = tuple(_before(stretch, behind) for stretch in left.stretches)
+    stretches = restarted(left.model, undone)
+    before = fit_prediction(left.space, stretches, left.u, FIRST_GAINS)
     shares = [
         _passed(stretch.time, behind.time_constant)[stretch.used[1:]] for stretch in stretches
     ]
