@@ -5,8 +5,8 @@ passes the noise: errors that are white before a filter are not after it. Noise 
 something else; then its colour and the lag have time constants of their own.
 """
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import product
 from math import exp, inf, log
 from operator import itemgetter
@@ -34,6 +34,8 @@ from diffbot_sim.records import Array, Run
 
 # How far from an effect's lateness the time constant is looked for, and how closely: shares.
 WITHIN, CLOSELY, LOOKS = 4.0, 0.02, 12
+# Shares of an effect's lateness at which a filter beside it is tried first.
+BESIDE = (0.5, 0.125)
 
 
 # How old [s] what a filter of a time constant is given is, at an interval of the odometry.
@@ -100,8 +102,7 @@ def filter_behind(fit: Fit) -> Filter | None:
     values, cost = fit.space.values(fit.u), _cost(fit)
     late = [(e, values.get(name, 0.0)) for name, e in zip(LATE, LATE_EFFECTS, strict=True)]
     asked = ((e, near, age) for (e, near), age in product(late, AGES) if near > 0.0)
-    looks = [look for how in asked for look in _looks(fit, *how)]
-    found = [look.best() for look in looks if look.cost(look.near) <= cost + look.allowed]
+    found = [told for how in asked for told in _likelier(fit, cost, *how)]
     least, behind = min(found, key=itemgetter(0), default=(inf, None))
     if behind is None or least >= _cost_of_colour(fit) + VERY_STRONG:
         return None
@@ -110,40 +111,46 @@ def filter_behind(fit: Fit) -> Filter | None:
     return behind._replace(worth=cost - least)
 
 
-@dataclass(frozen=True)
-class _Look:
-    """A filter that may be there.
+def _likelier(
+    fit: Fit, cost: float, effect: str, near: float, age: Age
+) -> list[tuple[float, Filter]]:
+    """Return filters that cost less than a fit: in the place of an effect, and beside it.
 
-    left: what is fitted once it is undone, from where; near [s]: about its time constant;
-    allowed: by how much more than without it the cost may be.
+    near [s]: how late the effect is.
     """
+    space = Space(fit.space.declared, tuple(k for k in fit.space.kinds if k.name != effect))
+    less = replace(fit, space=space, u=np.delete(fit.u, fit.space.places(effect)))
+    most = cost + _allowed(fit.stretches, near)
+    in_its_place = _Look(less, age).likelier(most, [near], (near / WITHIN, near * WITHIN))
+    least = min((told for told, _ in in_its_place), default=cost)
+    tried = [near * share for share in BESIDE]
+    beside = _Look(fit, age).likelier(least - VERY_STRONG, tried, (near / WITHIN**2, near))
+    return [*in_its_place, *beside]
+
+
+class _Look(NamedTuple):
+    """A filter of some age that may be there; left: what is fitted once that is undone."""
 
     left: Fit
-    near: float
     age: Age
-    allowed: float
 
     def cost(self, time_constant: float) -> float:
         """Return -2 log-likelihood with a filter of this time constant."""
         return _cost_before(self.left, Filter(time_constant, self.age))
 
-    def best(self) -> tuple[float, Filter]:
-        """Return the lowest cost, and the filter that has it."""
+    def likelier(
+        self, most: float, tried: Sequence[float], within: tuple[float, float]
+    ) -> list[tuple[float, Filter]]:
+        """Return the lowest cost and its filter, if one of those tried first costs no more."""
+        if min(map(self.cost, tried)) > most:
+            return []
         found = minimize_scalar(
             lambda at: self.cost(exp(at)),
-            bounds=(log(self.near / WITHIN), log(self.near * WITHIN)),
+            bounds=tuple(map(log, within)),
             method='bounded',
             options={'xatol': CLOSELY, 'maxiter': LOOKS},
         )
-        return float(found.fun), Filter(exp(found.x), self.age)
-
-
-def _looks(fit: Fit, effect: str, near: float, age: Age) -> Iterator[_Look]:
-    """Yield a filter in the place of an effect that is late by so much [s], and one beside it."""
-    space = Space(fit.space.declared, tuple(k for k in fit.space.kinds if k.name != effect))
-    less = replace(fit, space=space, u=np.delete(fit.u, fit.space.places(effect)))
-    yield _Look(less, near, age, _allowed(fit.stretches, near))
-    yield _Look(fit, near / WITHIN, age, -VERY_STRONG)
+        return [(float(found.fun), Filter(exp(found.x), self.age))]
 
 
 def _allowed(stretches: Sequence[Stretch], near: float) -> float:
