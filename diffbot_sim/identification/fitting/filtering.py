@@ -22,6 +22,7 @@ from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.recordings.lateness import (
     LATE,
     LATE_EFFECTS,
+    lateness_of,
     pose_denies_lag,
 )
 from diffbot_sim.identification.recordings.start import restarted
@@ -34,6 +35,8 @@ from diffbot_sim.records import Array, Run
 
 # How far from an effect's lateness the time constant is looked for, and how closely: shares.
 WITHIN, CLOSELY, LOOKS = 4.0, 0.02, 12
+# Rounds of the fits that are compared.
+ROUNDS = 2
 # Shares of an effect's lateness at which a filter beside it is tried first.
 BESIDE = (0.5, 0.125)
 
@@ -101,31 +104,18 @@ def filter_behind(fit: Fit) -> Filter | None:
         return None
     values, cost = fit.space.values(fit.u), _cost(fit)
     late = [(e, values.get(name, 0.0)) for name, e in zip(LATE, LATE_EFFECTS, strict=True)]
-    asked = ((e, near, age) for (e, near), age in product(late, AGES) if near > 0.0)
-    found = [told for how in asked for told in _likelier(fit, cost, *how)]
+    found = [
+        _Look(_less(fit, effect), age).best(near / WITHIN, near * WITHIN)
+        for (effect, near), age in product(late, AGES)
+        if near > 0.0 and _explains(fit, effect, near, age, cost)
+    ]
+    found += _beside(fit, lateness_of(values), min((told for told, _ in found), default=cost))
     least, behind = min(found, key=itemgetter(0), default=(inf, None))
     if behind is None or least >= _cost_of_colour(fit) + VERY_STRONG:
         return None
     if least >= _cost_of_lag(fit, behind.time_constant):
         return None
     return behind._replace(worth=cost - least)
-
-
-def _likelier(
-    fit: Fit, cost: float, effect: str, near: float, age: Age
-) -> list[tuple[float, Filter]]:
-    """Return filters that cost less than a fit: in the place of an effect, and beside it.
-
-    near [s]: how late the effect is.
-    """
-    space = Space(fit.space.declared, tuple(k for k in fit.space.kinds if k.name != effect))
-    less = replace(fit, space=space, u=np.delete(fit.u, fit.space.places(effect)))
-    most = cost + _allowed(fit.stretches, near)
-    in_its_place = _Look(less, age).likelier(most, [near], (near / WITHIN, near * WITHIN))
-    least = min((told for told, _ in in_its_place), default=cost)
-    tried = [near * share for share in BESIDE]
-    beside = _Look(fit, age).likelier(least - VERY_STRONG, tried, (near / WITHIN**2, near))
-    return [*in_its_place, *beside]
 
 
 class _Look(NamedTuple):
@@ -136,21 +126,58 @@ class _Look(NamedTuple):
 
     def cost(self, time_constant: float) -> float:
         """Return -2 log-likelihood with a filter of this time constant."""
-        return _cost_before(self.left, Filter(time_constant, self.age))
+        return self._followed(time_constant, self.left.u, FIRST_GAINS)[0]
 
-    def likelier(
-        self, most: float, tried: Sequence[float], within: tuple[float, float]
-    ) -> list[tuple[float, Filter]]:
-        """Return the lowest cost and its filter, if one of those tried first costs no more."""
-        if min(map(self.cost, tried)) > most:
-            return []
+    def best(self, shortest: float, longest: float) -> tuple[float, Filter]:
+        """Return the lowest cost, and the filter that has it, with a time constant between two."""
+        point, gains = self.left.u, FIRST_GAINS
+
+        def cost(at: float) -> float:
+            nonlocal point, gains
+            told, end = self._followed(exp(at), point, gains)
+            point, gains = (
+                end.u,
+                end.gains,
+            )  # a filter that is hardly another one leaves hardly else
+            return told
+
         found = minimize_scalar(
-            lambda at: self.cost(exp(at)),
-            bounds=tuple(map(log, within)),
+            cost,
+            bounds=(log(shortest), log(longest)),
             method='bounded',
             options={'xatol': CLOSELY, 'maxiter': LOOKS},
         )
-        return [(float(found.fun), Filter(exp(found.x), self.age))]
+        return float(found.fun), Filter(exp(found.x), self.age)
+
+    def _followed(self, time_constant: float, start: Array, gains: Array) -> tuple[float, Fit]:
+        """Return -2 log-likelihood once a filter is undone, and the fit, begun at a point."""
+        behind = Filter(time_constant, self.age)
+        undone = tuple(_before(stretch, behind) for stretch in self.left.stretches)
+        stretches = restarted(self.left.space.model(start), undone)
+        fit = fit_prediction(self.left.space, stretches, start, gains, ROUNDS)
+        shares = [_passed(stretch.time, time_constant)[stretch.used[1:]] for stretch in stretches]
+        return _cost(fit) + 4.0 * float(np.log(np.concatenate(shares)).sum()), fit
+
+
+def _less(fit: Fit, effect: str) -> Fit:
+    """Return the structure of a fit less an effect, not fitted again."""
+    space = Space(fit.space.declared, tuple(k for k in fit.space.kinds if k.name != effect))
+    return replace(fit, space=space, u=np.delete(fit.u, fit.space.places(effect)))
+
+
+def _explains(fit: Fit, effect: str, near: float, age: Age, cost: float) -> bool:
+    """Say whether a filter as late as an effect [s] costs no more in its place than may be."""
+    return _Look(_less(fit, effect), age).cost(near) <= cost + _allowed(fit.stretches, near)
+
+
+def _beside(fit: Fit, near: float, cost: float) -> list[tuple[float, Filter]]:
+    """Return filters beside what makes a robot late by so much [s], if they cost far less."""
+    looks = [_Look(fit, age) for age in AGES] if near > 0.0 else []
+    return [
+        look.best(near / WITHIN**2, near)
+        for look in looks
+        if min(look.cost(near * share) for share in BESIDE) <= cost - VERY_STRONG
+    ]
 
 
 def _allowed(stretches: Sequence[Stretch], near: float) -> float:
@@ -159,17 +186,6 @@ def _allowed(stretches: Sequence[Stretch], near: float) -> float:
         return -VERY_STRONG
     denied = any(pose_denies_lag(stretch.run, near) for stretch in stretches)
     return -VERY_STRONG if denied else VERY_STRONG
-
-
-def _cost_before(left: Fit, behind: Filter) -> float:
-    """Return -2 log-likelihood of what is left once a filter is undone."""
-    undone = tuple(_before(stretch, behind) for stretch in left.stretches)
-    stretches = restarted(left.model, undone)
-    before = fit_prediction(left.space, stretches, left.u, FIRST_GAINS)
-    shares = [
-        _passed(stretch.time, behind.time_constant)[stretch.used[1:]] for stretch in stretches
-    ]
-    return _cost(before) + 4.0 * float(np.log(np.concatenate(shares)).sum())
 
 
 def _cost_of_colour(fit: Fit) -> float:
