@@ -130,15 +130,12 @@ class _Look(NamedTuple):
 
     def best(self, shortest: float, longest: float) -> tuple[float, Filter]:
         """Return the lowest cost, and the filter that has it, with a time constant between two."""
-        point, gains = self.left.u, FIRST_GAINS
+        start = self.left.u, FIRST_GAINS
 
         def cost(at: float) -> float:
-            nonlocal point, gains
-            told, end = self._followed(exp(at), point, gains)
-            point, gains = (
-                end.u,
-                end.gains,
-            )  # a filter that is hardly another one leaves hardly else
+            nonlocal start
+            told, end = self._followed(exp(at), *start)
+            start = end.u, end.gains  # the next filter is nearly the same
             return told
 
         found = minimize_scalar(
