@@ -8,6 +8,7 @@ from fits import without_pose
 from hypothesis import given
 from hypothesis import strategies as st
 from rehearsal import Surroundings, random_forces, rehearse
+from scipy.signal import butter, lfilter
 
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
@@ -87,6 +88,14 @@ def test_lag_of_the_actuators_is_told_from_that_of_a_filter(lag: float, behind: 
     assert effect.name == 'actuator_lag'
     assert effect.parameters['time_constant'].value == pytest.approx(lag, rel=0.03)
     assert answer.timings[0].lateness == pytest.approx(behind, rel=0.05)
+
+
+def test_filter_of_second_order_makes_no_robot_late() -> None:
+    run = driven((), Surroundings())
+    passed = lfilter(*butter(2, 3.0, fs=50.0), run.odometry.twist, axis=0)
+    run = replace(run, odometry=Odometry(run.odometry.time, passed, None))
+    answer = identify([run], Model(), kinds=LATENESS)
+    assert (answer.verdict, answer.effects) == ('unexplained', ())
 
 
 def test_twists_in_coarse_steps_went_through_no_filter() -> None:

@@ -27,9 +27,13 @@ from diffbot_sim.identification.older import (
     lead_of_means,
 )
 from diffbot_sim.identification.recordings.acting import acted_before
-from diffbot_sim.identification.recordings.lateness import timely
+from diffbot_sim.identification.recordings.lateness import LATE_EFFECTS, timely
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.selection.stepwise import Tried
+from diffbot_sim.identification.selection.trials import OUTDONE
+
+# What a force depends on where more of the twists is late than was allowed for.
+PAST_OF_COMMANDS = ('past_force', 'force_change')
 
 
 def timed(recordings: Recordings, question: Question) -> Found:
@@ -138,6 +142,21 @@ def _undoing(behind: Filter, recordings: Recordings, question: Question) -> Foun
     question.progress('undoing a filter of the twists')
     undone = recordings.each(partial(unfiltered, behind=behind))
     return replace(found_in(undone, question), time_constant=behind.time_constant)
+
+
+def doubting_lateness(found: Found) -> Found:
+    """Withdraw what makes a robot late behind a filter where the past of commands matters besides.
+
+    Then the filter is of another kind than that which was undone, and may be all that is late.
+    """
+    left = found.unexplained
+    if found.time_constant <= 0.0 or left is None or left.variable not in PAST_OF_COMMANDS:
+        return found
+    for name in LATE_EFFECTS:
+        if name in found.names:
+            less = found.selection.withdrawn(name, found.held_out, OUTDONE)
+            found = replace(found, selection=less)
+    return found
 
 
 def allowing_a_lead(found: Found, question: Question) -> Found:

@@ -18,7 +18,7 @@ from diffbot_sim.identification.odd_ones import denied_by, odd_among
 from diffbot_sim.identification.recordings.lateness import timely
 from diffbot_sim.identification.recordings.noiseless import odometry_noise, with_noise
 from diffbot_sim.identification.recordings.recordings import Recordings
-from diffbot_sim.identification.retimed import allowing_a_lead, timed
+from diffbot_sim.identification.retimed import allowing_a_lead, doubting_lateness, timed
 from diffbot_sim.identification.simulating import is_integrators, without_worsening
 from diffbot_sim.records import Run
 
@@ -76,7 +76,8 @@ def _own_effects(run: Run, others: Found, question: Question) -> frozenset[str] 
 def _asked(recordings: Recordings, question: Question) -> Found:
     """Search in recordings, and ask all that may be wrong with their stamps and their friction."""
     found = settled(timed(recordings, question), question)
-    return without_worsening(_begun_later(allowing_a_lead(found, question), question))
+    found = without_worsening(_begun_later(allowing_a_lead(found, question), question))
+    return doubting_lateness(found)
 
 
 def _begun_later(found: Found, question: Question) -> Found:
