@@ -102,7 +102,7 @@ class Ages:
                 return older
         return None
 
-    def taken(self, older: Older) -> tuple[Fit, ...]:
+    def fits(self, older: Older) -> tuple[Fit, ...]:
         """The structure that was found on older twists, as it is and less what makes it late."""
         return self._again[older], self._less_late[older]
 

@@ -92,7 +92,7 @@ def _held_against_older(found: Found, taken: _Taken, question: Question) -> Foun
 
 def _outdoes(behind: Filter, fit: Fit, ages: Ages, older: Older) -> bool:
     """Say whether a filter explains more of what a fit leaves than twists that are older do."""
-    return all(behind.outdoes(fit, taken) for taken in ages.taken(older))
+    return all(behind.outdoes(fit, other) for other in ages.fits(older))
 
 
 def _filtered_beyond_doubt(begun: Begun, tried: Tried, question: Question) -> Found | None:

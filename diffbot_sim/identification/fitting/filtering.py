@@ -7,7 +7,6 @@ something else; then its colour and the lag have time constants of their own.
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from itertools import product
 from math import exp, inf, log
 from operator import itemgetter
 from typing import NamedTuple
@@ -102,14 +101,25 @@ def filter_behind(fit: Fit) -> Filter | None:
         return None
     if np.any(resolution(np.concatenate([s.twist for s in fit.stretches])) > fit.sigma):
         return None
-    values, cost = fit.space.values(fit.u), _cost(fit)
-    late = [(e, values.get(name, 0.0)) for name, e in zip(LATE, LATE_EFFECTS, strict=True)]
+    values = fit.space.values(fit.u)
+    late = lateness_of(values)
+    if late <= 0.0:
+        return None
+    cost = _cost(fit)
     found = [
-        _Look(_less(fit, effect), age).best(near / WITHIN, near * WITHIN)
-        for (effect, near), age in product(late, AGES)
-        if near > 0.0 and _explains(fit, effect, near, age, cost)
+        told
+        for name, effect in zip(LATE, LATE_EFFECTS, strict=True)
+        if (near := values.get(name, 0.0)) > 0.0
+        for told in _likelier(
+            fit.less(effect),
+            cost + _allowed(fit.stretches, near),
+            [near],
+            (near / WITHIN, near * WITHIN),
+        )
     ]
-    found += _beside(fit, lateness_of(values), min((told for told, _ in found), default=cost))
+    least = min((told for told, _ in found), default=cost)
+    tried = [late * share for share in BESIDE]
+    found += _likelier(fit, least - VERY_STRONG, tried, (late / WITHIN**2, late))
     least, behind = min(found, key=itemgetter(0), default=(inf, None))
     if behind is None or least >= _cost_of_colour(fit) + VERY_STRONG:
         return None
@@ -156,25 +166,15 @@ class _Look(NamedTuple):
         return _cost(fit) + 4.0 * float(np.log(np.concatenate(shares)).sum()), fit
 
 
-def _less(fit: Fit, effect: str) -> Fit:
-    """Return the structure of a fit less an effect, not fitted again."""
-    space = Space(fit.space.declared, tuple(k for k in fit.space.kinds if k.name != effect))
-    return replace(fit, space=space, u=np.delete(fit.u, fit.space.places(effect)))
+def _likelier(
+    left: Fit, most: float, tried: Sequence[float], within: tuple[float, float]
+) -> list[tuple[float, Filter]]:
+    """Return the best filter of each age, if one of those tried first costs no more than most.
 
-
-def _explains(fit: Fit, effect: str, near: float, age: Age, cost: float) -> bool:
-    """Say whether a filter as late as an effect [s] costs no more in its place than may be."""
-    return _Look(_less(fit, effect), age).cost(near) <= cost + _allowed(fit.stretches, near)
-
-
-def _beside(fit: Fit, near: float, cost: float) -> list[tuple[float, Filter]]:
-    """Return filters beside what makes a robot late by so much [s], if they cost far less."""
-    looks = [_Look(fit, age) for age in AGES] if near > 0.0 else []
-    return [
-        look.best(near / WITHIN**2, near)
-        for look in looks
-        if min(look.cost(near * share) for share in BESIDE) <= cost - VERY_STRONG
-    ]
+    left: what is fitted once it is undone; within: the shortest and longest time constant [s].
+    """
+    looks = (_Look(left, age) for age in AGES)
+    return [look.best(*within) for look in looks if min(map(look.cost, tried)) <= most]
 
 
 def _allowed(stretches: Sequence[Stretch], near: float) -> float:

@@ -1,7 +1,7 @@
 """Fits: robust least squares on whitened prediction errors, noise model included."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -58,6 +58,13 @@ class Fit:
     def whitened(self) -> Array:
         """Innovations of all stretches over sigma, shape (n, 2)."""
         return whitened(self.stretches, self.model, self.gains, self.sigma)
+
+    def less(self, *names: str) -> 'Fit':
+        """Return the structure without some effects, where it stood: it is not fitted again."""
+        kinds = tuple(kind for kind in self.space.kinds if kind.name not in names)
+        left = [place for name in names for place in self.space.places(name)]
+        space = Space(self.space.declared, kinds)
+        return replace(self, space=space, u=np.delete(self.u, left))
 
     def over(self, sigma: Array) -> Array:
         """Return the same innovations over another scale."""

@@ -72,10 +72,7 @@ def on_recordings(fit: Fit, recordings: Recordings) -> Fit:
 
 def fit_without(fit: Fit, *names: str) -> Fit:
     """Fit the structure that lacks one of the effects, or several."""
-    kinds = tuple(kind for kind in fit.space.kinds if kind.name not in names)
-    left = [place for name in names for place in fit.space.places(name)]
-    space = Space(fit.space.declared, kinds)
-    return refitted(replace(fit, space=space, u=np.delete(fit.u, left)))
+    return refitted(fit.less(*names))
 
 
 def refitted(fit: Fit) -> Fit:
