@@ -37,6 +37,8 @@ def weakened(force: float, speed: float, driving: float, braking: float) -> floa
 @compiled
 def limited(at: Motion, traction: Traction, driving: float, braking: float) -> Traction:
     """Limit the power of each wheel."""
+    if driving >= UNLIMITED and braking >= UNLIMITED:
+        return traction
     return Traction(
         weakened(traction.right, at.speed_right, driving, braking),
         weakened(traction.left, at.speed_left, driving, braking),

@@ -16,6 +16,8 @@ BRAKING = (0.0, -1.0)
 LEAST = 1e-3
 # So near to a corner that 0.5 % are missing there: the limit changes no faster than the speed.
 BEND = 128.0
+# As good as none [N].
+UNLIMITED = 1e9
 
 
 @compiled
@@ -33,6 +35,8 @@ def limited(
     at: Motion, traction: Traction, stall: float, no_load: float, braking: float
 ) -> Traction:
     """Limit the force of each wheel by its speed."""
+    if stall >= UNLIMITED:
+        return traction
     return Traction(
         offered(traction.right, at.speed_right, stall, no_load, braking),
         offered(traction.left, at.speed_left, stall, no_load, braking),
@@ -57,7 +61,9 @@ class VoltageLimit(Effect):
     essential = ('no_load_speed',)
     excitation = 'the strongest commands, from rest until it is fast, and against its motion'
 
-    stall_force: float = largest(1e9, unit='N', meaning='largest force of a wheel at rest')
+    stall_force: float = largest(
+        UNLIMITED, unit='N', meaning='largest force of a wheel at rest'
+    )
     no_load_speed: float = largest(
         1e9, unit='m/s', scale=1.0, meaning='speed at which nothing is left of it'
     )
