@@ -94,7 +94,7 @@ def explains_better(other: Found, found: Found) -> bool:
 def _as_taken(found: Found) -> tuple[object, ...]:
     """Return what recordings were taken to be: of other data no deviances can be compared."""
     count = len(found.undoubted.final.whitened)
-    return count, found.time_constant, found.lead, found.noisy is None
+    return count, found.behind, found.lead, found.noisy is None
 
 
 def _is_contradicted(effect: Effect, fit: Fit) -> bool:

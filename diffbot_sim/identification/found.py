@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.recordings.filters import Filter
 from diffbot_sim.identification.recordings.lateness import half_interval, timely, timing
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.stretches import Stretch
@@ -26,8 +27,8 @@ class Found:
     """What was found in recordings, as they were taken to be timed.
 
     undoubted: as it was before names were doubted; near_rest: by how much a friction near rest of
-    another form than declared, which is allowed for, lowers the deviance; time_constant [s]: of
-    the filter of their twists that was undone, 0 if none was; undecided: whether twists may be
+    another form than declared, which is allowed for, lowers the deviance; behind: the
+    filter of their twists that was undone, if one was; undecided: whether twists may be
     older than their stamps; lead [s]: by how much forces were taken to act before theirs;
     noisy: the recordings, timely, with noise added, if they had none; None if they had;
     aside: the runs that were set aside, and which effects each has that the others deny.
@@ -40,7 +41,7 @@ class Found:
     selection: Selection
     unexplained: Structure | None
     near_rest: float = 0.0
-    time_constant: float = 0.0
+    behind: Filter | None = None
     undecided: bool = False
     lead: float = 0.0
     noisy: Recordings | None = None
@@ -65,7 +66,7 @@ class Found:
         """Return the same, its recordings taken to be timed as those of another search."""
         return replace(
             self,
-            time_constant=other.time_constant,
+            behind=other.behind,
             undecided=other.undecided,
             lead=other.lead,
         )
@@ -76,8 +77,9 @@ class Found:
         return (*self._of_twists(given), *leads)
 
     def _of_twists(self, given: Recordings) -> Iterator[Timing]:
-        if self.time_constant > 0.0:
-            return (Timing(run.name, self.time_constant, 'filter') for run in given.all)
+        if self.behind is not None:
+            late = self.behind.lateness
+            return (Timing(run.name, late, 'filter') for run in given.all)
         if self.undecided:
             return (Timing(run.name, half_interval(run), 'undecided') for run in given.all)
         if self.noisy is None:

@@ -15,8 +15,9 @@ from diffbot_sim.identification.finding import (
     tried_first,
 )
 from diffbot_sim.identification.fitting.coordinates import Space
-from diffbot_sim.identification.fitting.filtering import Filter, filter_behind, unfiltered
+from diffbot_sim.identification.fitting.filtering import Likelier, filter_behind
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
+from diffbot_sim.identification.fitting.second_order import second_order_behind
 from diffbot_sim.identification.found import Begun, Found
 from diffbot_sim.identification.leading import lead_of
 from diffbot_sim.identification.older import (
@@ -27,8 +28,10 @@ from diffbot_sim.identification.older import (
     lead_of_means,
 )
 from diffbot_sim.identification.recordings.acting import acted_before
+from diffbot_sim.identification.recordings.filters import Filter, unfiltered
 from diffbot_sim.identification.recordings.lateness import LATE_EFFECTS, timely
 from diffbot_sim.identification.recordings.recordings import Recordings
+from diffbot_sim.identification.recordings.stretches import thin
 from diffbot_sim.identification.selection.stepwise import Tried
 from diffbot_sim.identification.selection.trials import OUTDONE
 
@@ -43,6 +46,9 @@ def timed(recordings: Recordings, question: Question) -> Found:
     often nothing else needs to be.
     """
     begun = begun_with(recordings.each(timely), question)
+    behind = second_order_behind(begun.recalibrated, question.kinds)
+    if behind is not None:
+        return _undoing(behind, begun.recordings, question)
     taken = _Taken(begun.recordings, question)
     older = Ages(begun.base, begun.recordings).beyond_doubt(question.kinds)
     if older is not None:
@@ -90,7 +96,7 @@ def _held_against_older(found: Found, taken: _Taken, question: Question) -> Foun
     return replace(unfiltered, undecided=ages.is_undecided)
 
 
-def _outdoes(behind: Filter, fit: Fit, ages: Ages, older: Older) -> bool:
+def _outdoes(behind: Likelier, fit: Fit, ages: Ages, older: Older) -> bool:
     """Say whether a filter explains more of what a fit leaves than twists that are older do."""
     return all(behind.outdoes(fit, other) for other in ages.fits(older))
 
@@ -108,7 +114,7 @@ def _filtered_beyond_doubt(begun: Begun, tried: Tried, question: Question) -> Fo
     ages = Ages(first, begun.recordings)
     if not all(_outdoes(behind, first, ages, older) for older in ages.likely):
         return None
-    found = _undoing(behind, begun.recordings, question)
+    found = _undoing(behind.filter, begun.recordings, question)
     if found.unexplained or not _is_of_filter(first, found.undoubted.final):
         return None
     return found
@@ -129,9 +135,9 @@ def _is_of_filter(first: Fit, final: Fit) -> bool:
     return filter_behind(beside) is not None
 
 
-def _unfiltered(found: Found, behind: Filter, question: Question) -> Found:
+def _unfiltered(found: Found, behind: Likelier, question: Question) -> Found:
     """Search again where what is left of a filter may be held against the names found."""
-    other = _undoing(behind, found.recordings, question)
+    other = _undoing(behind.filter, found.recordings, question)
     # What is undone must not bring about what was not there, and speaks as loudly.
     if other.unexplained and not found.unexplained and other.unexplained.worth > behind.worth:
         return found
@@ -140,8 +146,9 @@ def _unfiltered(found: Found, behind: Filter, question: Question) -> Found:
 
 def _undoing(behind: Filter, recordings: Recordings, question: Question) -> Found:
     question.progress('undoing a filter of the twists')
-    undone = recordings.each(partial(unfiltered, behind=behind))
-    return replace(found_in(undone, question), time_constant=behind.time_constant)
+    # Of the samples that were looked at: one that counts samples is of these.
+    undone = recordings.each(thin).each(partial(unfiltered, behind=behind))
+    return replace(found_in(undone, question), behind=behind)
 
 
 def doubting_lateness(found: Found) -> Found:
@@ -150,7 +157,7 @@ def doubting_lateness(found: Found) -> Found:
     Then the filter is of another kind than that which was undone, and may be all that is late.
     """
     left = found.unexplained
-    if found.time_constant <= 0.0 or left is None or left.variable not in PAST_OF_COMMANDS:
+    if found.behind is None or left is None or left.variable not in PAST_OF_COMMANDS:
         return found
     for name in LATE_EFFECTS:
         if name in found.names:

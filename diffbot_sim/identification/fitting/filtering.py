@@ -5,19 +5,23 @@ passes the noise: errors that are white before a filter are not after it. Noise 
 something else; then its colour and the lag have time constants of their own.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 from math import exp, inf, log
 from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import minimize_scalar
-from scipy.special import exprel
 
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
-from diffbot_sim.identification.recordings.intervals import median_interval
+from diffbot_sim.identification.recordings.filters import (
+    AGES,
+    Age,
+    FirstOrder,
+    before,
+    passed_at_once,
+)
 from diffbot_sim.identification.recordings.lateness import (
     LATE,
     LATE_EFFECTS,
@@ -30,7 +34,7 @@ from diffbot_sim.identification.statistics.guards import VERY_STRONG
 from diffbot_sim.identification.statistics.memory import unforeseen
 from diffbot_sim.identification.statistics.norms import resolution
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
-from diffbot_sim.records import Array, Run
+from diffbot_sim.records import Array
 
 # How far from an effect's lateness the time constant is looked for, and how closely: shares.
 WITHIN, CLOSELY, LOOKS = 4.0, 0.02, 12
@@ -40,55 +44,18 @@ ROUNDS = 2
 BESIDE = (0.5, 0.125)
 
 
-# How old [s] what a filter of a time constant is given is, at an interval of the odometry.
-Age = Callable[[float, float], float]
+class Likelier(NamedTuple):
+    """A filter that explains something; worth: by how much it lowers -2 log-likelihood."""
 
-
-def told_each_sample(time_constant: float, interval: float) -> float:
-    """Return the age of what a filter is told that is told each sample: of that moment."""
-    return 0.0
-
-
-def told_often(time_constant: float, interval: float) -> float:
-    """Return the age of what a filter is told that is told much more often than the odometry.
-
-    It passes a mean over the interval, in which the latest counts most.
-    """
-    return time_constant * (1.0 - 1.0 / float(exprel(interval / time_constant)))
-
-
-AGES: tuple[Age, ...] = (told_each_sample, told_often)
-
-
-class Filter(NamedTuple):
-    """A first-order filter of twists: its time constant [s], and how old what it is told is.
-
-    worth: by how much it lowers -2 log-likelihood, in place of an effect or beside it.
-    """
-
-    time_constant: float
-    age: Age
-    worth: float = 0.0
+    filter: FirstOrder
+    worth: float
 
     def outdoes(self, fit: Fit, other: Fit) -> bool:
         """Say whether it explains more of what a fit leaves than another fit does."""
-        return self.worth > _cost(fit) - _cost(other)
-
-    def undone(self, time: Array, twist: Array) -> tuple[Array, Array]:
-        """Return the stamps and twists that it was given; the first sample as it is."""
-        passed = _passed(time, self.time_constant)[:, None]
-        given = np.vstack([twist[:1], twist[:-1] + np.diff(twist, axis=0) / passed])
-        return time - self.age(self.time_constant, median_interval(time)), given
+        return self.worth > cost_of(fit) - cost_of(other)
 
 
-def unfiltered(run: Run, behind: Filter) -> Run:
-    """Return a run whose twists, and their stamps, are those that a filter was given."""
-    seen = run.odometry
-    time, twist = behind.undone(seen.time, seen.twist)
-    return replace(run, odometry=replace(seen, time=time, twist=twist))
-
-
-def filter_behind(fit: Fit) -> Filter | None:
+def filter_behind(fit: Fit) -> Likelier | None:
     """Return a filter that explains more than an effect that is late.
 
     It need explain only as much as one that is late by less than an interval of the odometry,
@@ -105,7 +72,7 @@ def filter_behind(fit: Fit) -> Filter | None:
     late = lateness_of(values)
     if late <= 0.0:
         return None
-    cost = _cost(fit)
+    cost = cost_of(fit)
     found = [
         told
         for name, effect in zip(LATE, LATE_EFFECTS, strict=True)
@@ -125,7 +92,7 @@ def filter_behind(fit: Fit) -> Filter | None:
         return None
     if least >= _cost_of_lag(fit, behind.time_constant):
         return None
-    return behind._replace(worth=cost - least)
+    return Likelier(behind, cost - least)
 
 
 class _Look(NamedTuple):
@@ -138,7 +105,7 @@ class _Look(NamedTuple):
         """Return -2 log-likelihood with a filter of this time constant."""
         return self._followed(time_constant, self.left.u, FIRST_GAINS)[0]
 
-    def best(self, shortest: float, longest: float) -> tuple[float, Filter]:
+    def best(self, shortest: float, longest: float) -> tuple[float, FirstOrder]:
         """Return the lowest cost, and the filter that has it, with a time constant between two."""
         start = self.left.u, FIRST_GAINS
 
@@ -154,21 +121,21 @@ class _Look(NamedTuple):
             method='bounded',
             options={'xatol': CLOSELY, 'maxiter': LOOKS},
         )
-        return float(found.fun), Filter(exp(found.x), self.age)
+        return float(found.fun), FirstOrder(exp(found.x), self.age)
 
     def _followed(self, time_constant: float, start: Array, gains: Array) -> tuple[float, Fit]:
         """Return -2 log-likelihood once a filter is undone, and the fit, begun at a point."""
-        behind = Filter(time_constant, self.age)
-        undone = tuple(_before(stretch, behind) for stretch in self.left.stretches)
+        behind = FirstOrder(time_constant, self.age)
+        undone = tuple(before(stretch, behind) for stretch in self.left.stretches)
         stretches = restarted(self.left.space.model(start), undone)
         fit = fit_prediction(self.left.space, stretches, start, gains, ROUNDS)
-        shares = [_passed(stretch.time, time_constant)[stretch.used[1:]] for stretch in stretches]
-        return _cost(fit) + 4.0 * float(np.log(np.concatenate(shares)).sum()), fit
+        shares = [passed_at_once(s.time, time_constant)[s.used[1:]] for s in stretches]
+        return cost_of(fit) + 4.0 * float(np.log(np.concatenate(shares)).sum()), fit
 
 
 def _likelier(
     left: Fit, most: float, tried: Sequence[float], within: tuple[float, float]
-) -> list[tuple[float, Filter]]:
+) -> list[tuple[float, FirstOrder]]:
     """Return the best filter of each age, if one of those tried first costs no more than most.
 
     left: what is fitted once it is undone; within: the shortest and longest time constant [s].
@@ -187,7 +154,7 @@ def _allowed(stretches: Sequence[Stretch], near: float) -> float:
 
 def _cost_of_colour(fit: Fit) -> float:
     """Return -2 log-likelihood where all that past errors tell is the colour of the noise."""
-    return _cost(fit_simulation(fit.space, fit.stretches, fit.u))
+    return cost_of(fit_simulation(fit.space, fit.stretches, fit.u))
 
 
 def _cost_of_lag(fit: Fit, near: float) -> float:
@@ -199,19 +166,9 @@ def _cost_of_lag(fit: Fit, near: float) -> float:
     kept = (kind for kind in fit.space.kinds if kind.name not in LATE_EFFECTS)
     start = np.append(np.delete(fit.u, late), point_of(ActuatorLag, (near,)))
     space = Space(fit.space.declared, (*kept, ActuatorLag))
-    return _cost(fit_prediction(space, fit.stretches, start, fit.gains))
+    return cost_of(fit_prediction(space, fit.stretches, start, fit.gains))
 
 
-def _cost(fit: Fit) -> float:
+def cost_of(fit: Fit) -> float:
     """Return -2 log-likelihood of what past errors do not tell, less what all fits share."""
     return len(fit.whitened) * float(np.log(unforeseen(fit.whitened) * fit.sigma**2).sum())
-
-
-def _before(stretch: Stretch, behind: Filter) -> Stretch:
-    time, twist = behind.undone(stretch.time, stretch.twist)
-    return replace(stretch, time=time, twist=twist)
-
-
-def _passed(time: Array, time_constant: float) -> Array:
-    """Return the share of each change that a filter lets through at once."""
-    return np.asarray(-np.expm1(-np.diff(time) / time_constant))

@@ -61,9 +61,7 @@ class VoltageLimit(Effect):
     essential = ('no_load_speed',)
     excitation = 'the strongest commands, from rest until it is fast, and against its motion'
 
-    stall_force: float = largest(
-        UNLIMITED, unit='N', meaning='largest force of a wheel at rest'
-    )
+    stall_force: float = largest(UNLIMITED, unit='N', meaning='largest force of a wheel at rest')
     no_load_speed: float = largest(
         1e9, unit='m/s', scale=1.0, meaning='speed at which nothing is left of it'
     )

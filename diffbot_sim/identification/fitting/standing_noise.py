@@ -1,0 +1,87 @@
+"""The colour of the noise of a robot that stands, where nothing but its odometry tells."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.signal import lfilter
+
+from diffbot_sim.identification.fitting.fit import Fit
+from diffbot_sim.identification.fitting.predictor import NO_GAIN, predict
+from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.physics.model import Model
+from diffbot_sim.records import Array
+
+# So long after a stop [s] nothing of the motion is left in a filter; what is shorter than so many
+# samples tells nothing.
+COASTING, SHORTEST = 0.3, 15
+# Samples at the beginning of a rest that are left out, where what was before is not known.
+UNKNOWN = 5
+# Where fits of a colour begin: a lag, a slow oscillation, one behind a mean of three samples.
+STARTS = ((-0.5, 0.1, 0.0, 0.0), (-2.0, 1.0, 0.0, 0.0), (-1.5, 0.5, 0.8, 0.5))
+EVALUATIONS = 60
+# No root is nearer to the circle where a filter never forgets.
+NEAREST = 0.995
+
+
+class Colour(NamedTuple):
+    """What makes the noise white again: past / given; worth: by so much -2 log-likelihood falls.
+
+    point: four numbers that stand for both, without bounds.
+    """
+
+    point: Array
+    worth: float
+
+
+def polynomials(point: Array) -> tuple[Array, Array]:
+    """Return what up to four numbers stand for: past and given, shape (3,), that forget.
+
+    Those that are left out are 0: of one number it is a colour of first order.
+    """
+    reflected = NEAREST * np.tanh(np.pad(point, (0, 4 - len(point))))
+    return _stable(reflected[:2]), _stable(reflected[2:])
+
+
+def standing_noise(fit: Fit) -> list[Array]:
+    """Return the noise of twists (k, 2) while the robot stands, by a model that runs free.
+
+    Over its deviation, v and ω alike.
+    """
+    rests = [rest for stretch in fit.stretches for rest in _rests(fit.model, stretch)]
+    if not rests:
+        return []
+    deviation = np.concatenate(rests).std(axis=0)
+    return [rest / deviation for rest in rests] if np.all(deviation > 0.0) else []
+
+
+def colour_of(rests: Sequence[Array]) -> Colour:
+    """Return the colour of second order that explains the noise of a robot that stands best."""
+
+    def errors(point: Array) -> Array:
+        past, given = polynomials(point)
+        white = [lfilter(past, given, rest, axis=0)[UNKNOWN:] for rest in rests]
+        return np.concatenate(white).ravel()
+
+    ends = [least_squares(errors, start, max_nfev=EVALUATIONS) for start in STARTS]
+    best = min(ends, key=lambda end: float(end.cost))
+    as_they_are = np.concatenate([rest[UNKNOWN:] for rest in rests])
+    fall = np.log(np.mean(as_they_are**2) / np.mean(best.fun**2))
+    return Colour(best.x, float(as_they_are.size * fall))
+
+
+def _rests(model: Model, stretch: Stretch) -> list[Array]:
+    """Return the twists of each rest about their mean."""
+    still = np.all(predict(model, stretch, NO_GAIN).twist == 0.0, axis=1)
+    moved = np.maximum.accumulate(np.where(still, -np.inf, stretch.time))
+    resting = still & (stretch.time > moved + COASTING)
+    ends = np.flatnonzero(np.diff(np.concatenate([[0], resting, [0]])))
+    pieces = [stretch.twist[begin:end] for begin, end in ends.reshape(-1, 2)]
+    return [piece - piece.mean(axis=0) for piece in pieces if len(piece) >= SHORTEST]
+
+
+def _stable(reflected: Array) -> Array:
+    """Return the polynomial of two reflection coefficients between -1 and 1: it is stable."""
+    first, second = reflected
+    return np.array([1.0, first * (1.0 + second), second])
