@@ -116,7 +116,9 @@ def test_reader_learns_when_twists_were_not_taken_as_stamped(
     text = ' '.join(told(replace(by_hand.nothing_missing(), timings=tuple(late))).split())
     assert 'first drive: the twists were taken as 10.2 ms older than their stamps' in text
     assert 'second drive: the twists are means over what the poses tell, 50 ms late' in text
-    assert 'third drive: the twists were taken as they were before a low-pass filter' in text
+    assert (
+        'third drive: the twists were taken as they were before a filter that delays them' in text
+    )
     assert 'fourth drive: the twists may be 10 ms older than their stamps' in text
 
 

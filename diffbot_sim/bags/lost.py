@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diffbot_sim.bags.series import Ordered, silence, silences, usual_interval
+from diffbot_sim.bags.series import Ordered, silence, silences, usual_spacing
 from diffbot_sim.records import NANOSECONDS, Array
 
 # A topic comes at a steady rate if nine in ten of its intervals are whole numbers of the usual
@@ -38,7 +38,7 @@ def lost(force: Ordered) -> NDArray[np.int64]:
 
 def _is_steady(force: Ordered) -> bool:
     """Say whether a topic comes at a steady rate."""
-    if usual_interval(force) > SLOWEST:
+    if usual_spacing(force) > SLOWEST:
         return False
     is_few = _skipped(force).sum() < FEW * len(force.stamp)
     return bool(_is_even(_steps(force)).mean() >= STEADY and is_few)
@@ -46,7 +46,7 @@ def _is_steady(force: Ordered) -> bool:
 
 def _steps(force: Ordered) -> Array:
     """Return the usual intervals that pass after each message, shape (n,), one after the last."""
-    return np.append(np.diff(force.stamp) / usual_interval(force), 1.0)
+    return np.append(np.diff(force.stamp) / usual_spacing(force), 1.0)
 
 
 def _is_even(steps: Array) -> NDArray[np.bool_]:
@@ -60,7 +60,7 @@ def _skipped(force: Ordered) -> NDArray[np.int64]:
     """
     steps = _steps(force)
     is_late = np.append(steps[1:], 1.0) < SOON
-    is_short = steps * usual_interval(force) < silence(force)
+    is_short = steps * usual_spacing(force) < silence(force)
     skipped = np.maximum(np.rint(steps) - 1.0, 0.0)
     return np.where(_is_even(steps) & is_short & ~is_late, skipped, 0.0).astype(np.int64)
 
@@ -95,7 +95,7 @@ def _with_silent(force: Ordered) -> Ordered:
     rows = np.column_stack([size[last], lasting * size.var()])
     return replace(
         force,
-        stamp=np.insert(force.stamp, last + 1, begins + int(usual_interval(force))),
+        stamp=np.insert(force.stamp, last + 1, begins + int(usual_spacing(force))),
         values=np.insert(force.values, last + 1, rows, axis=0),
     )
 

@@ -89,14 +89,14 @@ def ordered(series: Series, stamp: Stamps) -> Ordered:
     return Ordered(series.topic, stamp[kept], values[kept], int(dropped), int(absurd), repeated)
 
 
-def usual_interval(series: Ordered) -> float:
+def usual_spacing(series: Ordered) -> float:
     """Return the median time between messages [ns]; endless where there are not two."""
     return float(np.median(np.diff(series.stamp))) if len(series.stamp) > 1 else np.inf
 
 
 def silence(series: Ordered) -> float:
     """Return for how long a topic must be silent to have a hole there, or an end [ns]."""
-    usual = usual_interval(series) if len(series.stamp) > 1 else 0.0
+    usual = usual_spacing(series) if len(series.stamp) > 1 else 0.0
     return max(LONGEST_SILENCE * NANOSECONDS, USUAL_SILENCES * usual)
 
 

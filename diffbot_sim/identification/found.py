@@ -78,7 +78,7 @@ class Found:
 
     def _of_twists(self, given: Recordings) -> Iterator[Timing]:
         if self.behind is not None:
-            late = self.behind.lateness
+            late = max(0.0, self.behind.lateness)
             return (Timing(run.name, late, 'filter') for run in given.all)
         if self.undecided:
             return (Timing(run.name, half_interval(run), 'undecided') for run in given.all)

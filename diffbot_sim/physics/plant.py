@@ -26,7 +26,7 @@ from diffbot_sim.physics.simulation import (
 )
 from diffbot_sim.physics.stages import Traction
 from diffbot_sim.physics.state import State
-from diffbot_sim.physics.stepper import advance
+from diffbot_sim.physics.stepper import advance_through
 from diffbot_sim.physics.vector import SPEED_RIGHT
 
 
@@ -189,8 +189,5 @@ def _step(  # type: ignore[no-untyped-def]
 ) -> None:
     """Advance under held forces and observe the result."""
     dynamics, inputs = Dynamics(laws, settle, step), Inputs(right, left, 0.0, 0.0)
-    count = max(1, int(np.ceil(duration / max_step - 1e-6)))
-    for i in range(count):
-        part = duration / count
-        advance(dynamics, params, states, z, modes, inputs, time + i * part, part, work)
+    advance_through(dynamics, params, states, z, modes, inputs, time, duration, max_step, work)
     observe(laws, params, states, z, modes, inputs, time + duration, row)

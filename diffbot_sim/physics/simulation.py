@@ -18,7 +18,7 @@ from diffbot_sim.physics.schedule import scheduled
 from diffbot_sim.physics.snapshot import CONTACTS
 from diffbot_sim.physics.stages import Traction
 from diffbot_sim.physics.state import State
-from diffbot_sim.physics.stepper import advance, update_contacts
+from diffbot_sim.physics.stepper import advance_through, update_contacts
 from diffbot_sim.physics.vector import (
     ANGLE_RIGHT,
     SPEED_RIGHT,
@@ -181,10 +181,8 @@ def advance_held(
         if current + 1 < len(commands.time):
             end = min(until, commands.time[current + 1])
         inputs = inputs_of(commands, current, push[0], push[1])
-        count = max(1, int(np.ceil((end - time) / commands.max_step - 1e-6)))
-        step = (end - time) / count
-        for i in range(count):
-            advance(dynamics, params, states, z, modes, inputs, time + i * step, step, work)
+        lasting, longest = end - time, commands.max_step
+        advance_through(dynamics, params, states, z, modes, inputs, time, lasting, longest, work)
         time = end
     return command_at(commands, current, until)
 

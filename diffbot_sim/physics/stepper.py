@@ -7,6 +7,8 @@ exceeds its limit, is cut at that moment; so the method's order holds through st
 
 from math import inf
 
+import numpy as np
+
 from diffbot_sim.physics import contact
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.contact import FREE, LEFT, RIGHT, YAW, Modes
@@ -61,6 +63,26 @@ def advance(
         # What was too long a moment ago is not tried again at once.
         longest = duration if event else 2.0 * taken
         done = duration if taken == left else done + taken
+
+
+@compiled
+def advance_through(
+    dynamics: Dynamics,
+    params: Array,
+    states: Array,
+    z: Array,
+    modes: Modes,
+    inputs: Inputs,
+    time: float,
+    duration: float,
+    max_step: float,
+    work: Array,
+) -> None:
+    """Advance under constant inputs, in equal steps of at most max_step [s]."""
+    count = max(1, int(np.ceil(duration / max_step - 1e-6)))
+    step = duration / count
+    for i in range(count):
+        advance(dynamics, params, states, z, modes, inputs, time + i * step, step, work)
 
 
 @compiled

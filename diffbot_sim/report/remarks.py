@@ -14,8 +14,8 @@ TIMINGS = {
     'they are not, the robot itself responds that late.',
     'speed': 'the speeds alone were taken as {} older than their stamps, as those of encoders '
     'beside a gyro are; if they are not, the robot itself responds that late.',
-    'filter': 'the twists were taken as they were before a low-pass filter with a time constant '
-    'of {}: it explains them and their noise better than a robot that is late.',
+    'filter': 'the twists were taken as they were before a filter that delays them by {}: it '
+    'explains them and their noise better than a robot that is late.',
     'undecided': 'the twists may be {} older than their stamps, as means over the past are; this '
     'recording does not tell. If they are, the robot itself is not late. Record faster.',
     'force': 'the robot moves before the forces that are told to drive it: they were taken as '

@@ -31,7 +31,7 @@ from diffbot_sim.identification.recordings.lateness import (
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.guards import VERY_STRONG
-from diffbot_sim.identification.statistics.memory import unforeseen
+from diffbot_sim.identification.statistics.memory import deviance_beyond_past
 from diffbot_sim.identification.statistics.norms import resolution
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 from diffbot_sim.records import Array
@@ -171,4 +171,4 @@ def _cost_of_lag(fit: Fit, near: float) -> float:
 
 def cost_of(fit: Fit) -> float:
     """Return -2 log-likelihood of what past errors do not tell, less what all fits share."""
-    return len(fit.whitened) * float(np.log(unforeseen(fit.whitened) * fit.sigma**2).sum())
+    return deviance_beyond_past(fit.whitened, fit.sigma)

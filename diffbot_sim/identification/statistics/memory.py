@@ -35,6 +35,14 @@ def falls_beyond_past(before: Array, after: Array) -> Array:
     return np.asarray(len(before) * np.log(unforeseen(before) / unforeseen(after)))
 
 
+def deviance_beyond_past(errors: Array, scale: Array) -> float:
+    """Return -2 log-likelihood of what past errors do not tell, less what all fits share.
+
+    errors: over their scale (2,), shape (n, 2).
+    """
+    return len(errors) * float(np.log(unforeseen(errors) * scale**2).sum())
+
+
 def unforeseen(errors: Array) -> Array:
     """Return the mean robust square of what past errors (n, 2) do not tell of each, shape (2,).
 
