@@ -15,6 +15,7 @@ from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.filtering import filter_behind
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
 from diffbot_sim.identification.recordings.filters import (
+    Age,
     FirstOrder,
     told_each_sample,
     told_often,
@@ -36,6 +37,11 @@ def filtered(run: Run, time_constant: float) -> Run:
     for k, passed in enumerate(-np.expm1(-np.diff(seen.time) / time_constant), start=1):
         twist[k] = twist[k - 1] + passed * (seen.twist[k] - twist[k - 1])
     return replace(run, odometry=Odometry(seen.time, twist, None))
+
+
+def delay_of(time_constant: float) -> float:
+    """Return by how much such a filter delays what changes slowly [s], told each 20 ms."""
+    return FirstOrder(time_constant, told_each_sample).lateness(0.02)
 
 
 def driven(effects: tuple, surroundings: Surroundings, seed: int = 3) -> Run:
@@ -62,12 +68,22 @@ def test_filter_that_is_told_often_passes_means_over_a_runs_own_interval(interva
     assert age == pytest.approx(0.5 * interval, rel=0.05)
 
 
+@pytest.mark.parametrize('age', [told_each_sample, told_often])
+def test_filter_delays_a_ramp_by_its_lateness(age: Age) -> None:
+    time = np.arange(0.0, 5.0, 0.02)
+    ramp = np.column_stack([time, 2.0 * time])
+    run = Run('drive', Commands(time, ramp), Odometry(time, ramp, None))
+    behind = FirstOrder(0.1, age)
+    seen = unfiltered(run, behind).odometry
+    assert seen.twist[-1, 0] - seen.time[-1] == pytest.approx(behind.lateness(0.02), rel=1e-6)
+
+
 def test_filtered_twists_do_not_make_a_robot_late() -> None:
     answer = identify([filtered(driven((), Surroundings()), 0.06)], Model())
     assert answer.verdict == 'nothing_missing'
     (timing,) = answer.timings
     assert timing.taken == 'filter'
-    assert timing.lateness == pytest.approx(0.06, rel=0.03)
+    assert timing.lateness == pytest.approx(delay_of(0.06), rel=0.03)
 
 
 def test_filter_that_is_told_often_does_not_make_a_robot_late() -> None:
@@ -87,7 +103,7 @@ def test_lag_of_the_actuators_is_told_from_that_of_a_filter(lag: float, behind: 
     (effect,) = answer.effects
     assert effect.name == 'actuator_lag'
     assert effect.parameters['time_constant'].value == pytest.approx(lag, rel=0.03)
-    assert answer.timings[0].lateness == pytest.approx(behind, rel=0.05)
+    assert answer.timings[0].lateness == pytest.approx(delay_of(behind), rel=0.05)
 
 
 def test_mean_over_many_samples_makes_no_robot_late() -> None:

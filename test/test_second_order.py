@@ -11,7 +11,7 @@ from scipy.signal import butter, lfilter
 
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.finding import Question, begun_with
-from diffbot_sim.identification.fitting.second_order import second_order_behind
+from diffbot_sim.identification.fitting.second_order import filter_seen_at_rest
 from diffbot_sim.identification.fitting.standing_noise import polynomials
 from diffbot_sim.identification.recordings.filters import SecondOrder
 from diffbot_sim.identification.recordings.recordings import Recordings
@@ -54,7 +54,7 @@ def found_behind(run: Run) -> SecondOrder | None:
     """Return the filter that is found behind a run of the declared model."""
     question = Question(Model(), LATENESS, lambda text: None)
     begun = begun_with(Recordings((run,), ()), question)
-    return second_order_behind(begun.recalibrated, LATENESS)
+    return filter_seen_at_rest(begun.recalibrated, LATENESS)
 
 
 @given(st.lists(st.floats(-0.9, 0.9), min_size=4, max_size=4), st.integers(0, 9))
@@ -65,6 +65,13 @@ def test_what_went_through_second_order_comes_back(point: list[float], seed: int
     twist[:9] = twist[0]
     passed = lfilter(np.array(given_) * known.at_once, past, twist - twist[0], axis=0) + twist[0]
     assert known.undone(0.02 * np.arange(200.0), passed)[1] == pytest.approx(twist, abs=1e-6)
+
+
+def test_second_order_delays_a_ramp_by_its_lateness() -> None:
+    known = SecondOrder((1.0, -1.2, 0.45), (1.0, 0.5, 0.0), 0.02, 0.004)
+    time = np.arange(0.0, 5.0, 0.02)
+    stamps, given_ = known.undone(time, np.column_stack([time, 2.0 * time]))
+    assert given_[-1, 0] - stamps[-1] == pytest.approx(known.lateness(0.02), rel=1e-6)
 
 
 @pytest.mark.parametrize('kind', [BUTTERWORTH, ALPHA_BETA], ids=['Butterworth', 'alpha-beta'])
@@ -88,7 +95,7 @@ def test_late_robot_is_told_behind_second_order(late: ActuatorLag | ActuatorDela
 def test_filter_is_found_on_a_rough_floor() -> None:
     filtered = found_behind(behind(driven(roughness=0.3), BUTTERWORTH))
     assert filtered is not None
-    assert filtered.lateness == pytest.approx(lateness(BUTTERWORTH), abs=0.006)
+    assert filtered.lateness(0.02) == pytest.approx(lateness(BUTTERWORTH), abs=0.006)
 
 
 @pytest.mark.parametrize('late', [(), (ActuatorLag(0.08),), (ActuatorDelay(0.1),)])
@@ -103,8 +110,11 @@ def test_white_noise_speaks_for_no_filter() -> None:
     assert found_behind(driven(ActuatorLag(0.08))) is None
 
 
-def test_first_order_is_left_to_those_who_look_for_it() -> None:
-    assert found_behind(behind(driven(), (np.array([0.4]), np.array([1.0, -0.6])))) is None
+def test_filter_of_first_order_is_no_more_than_that() -> None:
+    filtered = found_behind(behind(driven(), (np.array([0.4]), np.array([1.0, -0.6]))))
+    assert filtered is not None
+    assert filtered.given == (1.0, 0.0, 0.0)
+    assert filtered.past == pytest.approx((1.0, -0.6, 0.0), abs=0.03)
 
 
 def test_filter_of_odometry_that_comes_unevenly_is_not_told() -> None:

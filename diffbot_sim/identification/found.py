@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.recordings.filters import Filter
+from diffbot_sim.identification.recordings.intervals import median_interval
 from diffbot_sim.identification.recordings.lateness import half_interval, timely, timing
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.stretches import Stretch
@@ -78,8 +79,11 @@ class Found:
 
     def _of_twists(self, given: Recordings) -> Iterator[Timing]:
         if self.behind is not None:
-            late = max(0.0, self.behind.lateness)
-            return (Timing(run.name, late, 'filter') for run in given.all)
+            intervals = (median_interval(run.odometry.time) for run in given.all)
+            late = (max(0.0, self.behind.lateness(interval)) for interval in intervals)
+            return (
+                Timing(run.name, by, 'filter') for run, by in zip(given.all, late, strict=True)
+            )
         if self.undecided:
             return (Timing(run.name, half_interval(run), 'undecided') for run in given.all)
         if self.noisy is None:

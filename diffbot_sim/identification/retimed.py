@@ -17,7 +17,7 @@ from diffbot_sim.identification.finding import (
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filtering import Likelier, filter_behind
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
-from diffbot_sim.identification.fitting.second_order import second_order_behind
+from diffbot_sim.identification.fitting.second_order import filter_seen_at_rest
 from diffbot_sim.identification.found import Begun, Found
 from diffbot_sim.identification.leading import lead_of
 from diffbot_sim.identification.older import (
@@ -46,7 +46,7 @@ def timed(recordings: Recordings, question: Question) -> Found:
     often nothing else needs to be.
     """
     begun = begun_with(recordings.each(timely), question)
-    behind = second_order_behind(begun.recalibrated, question.kinds)
+    behind = filter_seen_at_rest(begun.recalibrated, question.kinds)
     if behind is not None:
         return _undoing(behind, begun.recordings, question)
     taken = _Taken(begun.recordings, question)

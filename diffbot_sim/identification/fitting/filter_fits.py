@@ -55,7 +55,9 @@ class Ended:
     @property
     def lateness(self) -> float:
         """How late twists are [s]: by the robot, and by the filter."""
-        return lateness_of(self.structure.space.values(self.u)) + self.filter.lateness
+        return lateness_of(self.structure.space.values(self.u)) + self.filter.lateness(
+            self.structure.interval
+        )
 
     @property
     def bic(self) -> float:
@@ -72,11 +74,15 @@ class Behind:
     u: Array
     stretches: tuple[Stretch, ...]
 
+    @property
+    def interval(self) -> float:
+        """The time between samples [s]."""
+        return self.stretches[0].interval
+
     def filter(self, numbers: Array, age: float) -> SecondOrder:
         """Return the filter that numbers stand for; age: of what it is told, in intervals."""
         past, given = (tuple(map(float, by)) for by in polynomials(numbers))
-        interval = self.stretches[0].interval
-        return SecondOrder(past, given, interval, age * interval)
+        return SecondOrder(past, given, self.interval, age * self.interval)
 
     def with_late(self, late: float, kind: type[Effect]) -> 'Behind':
         """Return the same with an effect that makes the robot late, by so much [s] at first."""
@@ -132,7 +138,8 @@ def _of_filter(numbers: Array) -> _Block:
     return _Block(numbers, Prior(numbers, np.full(len(numbers), DEVIATION)), (-far, far))
 
 
-OF_AGE = _Block(OLD, Prior(OLD, np.ones(1)), (np.zeros(1), OLDEST))
+# Of a robot that is delayed nothing tells how old that is: most filters are told each sample.
+OF_AGE = _Block(OLD, Prior(np.zeros(1), np.ones(1)), (np.zeros(1), OLDEST))
 
 
 def _fitted(errors: Errors, blocks: Sequence[_Block]) -> tuple[Array, float]:

@@ -1,7 +1,7 @@
-"""Filters of second order: told by the noise of a robot that stands, and fitted with its motion.
+"""Filters that are told by the noise of a robot that stands, and fitted with its motion.
 
-Estimators smooth twists by Butterworth's filter, an alpha-beta filter or a Kalman filter. Once one
-is undone errors are white and the robot is in time: the same filter must account for both.
+Estimators smooth twists by one of first order, by Butterworth's, an alpha-beta or a Kalman filter.
+Once one is undone errors are white and the robot is in time: the same filter must tell both.
 """
 
 from collections.abc import Sequence
@@ -12,7 +12,11 @@ import numpy as np
 
 from diffbot_sim.identification.fitting.filter_fits import Behind
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.fitting.standing_noise import colour_of, standing_noise
+from diffbot_sim.identification.fitting.standing_noise import (
+    colour_of,
+    first_order,
+    standing_noise,
+)
 from diffbot_sim.identification.recordings.filters import SecondOrder
 from diffbot_sim.identification.recordings.lateness import LATE_EFFECTS
 from diffbot_sim.identification.recordings.start import restarted
@@ -28,16 +32,18 @@ EVEN, MOST = 0.25, 0.99
 NEAR, OF_PAST = 2.0, np.array([1.0, 1.0, 0.0, 0.0])
 # A robot that is late besides is taken to be so by this at least [s], where its fit begins.
 LEAST_LATE = 0.02
+# The shortest delay, in samples, at which a filter of first order begins to be fitted.
+SHORTEST = 0.1
 
 
-def second_order_behind(free: Fit, kinds: Sequence[type[Effect]]) -> SecondOrder | None:
-    """Return a filter of second order that twists went through, if that is beyond doubt.
+def filter_seen_at_rest(free: Fit, kinds: Sequence[type[Effect]]) -> SecondOrder | None:
+    """Return a filter that twists went through, of second order at most, if that is beyond doubt.
 
     free: the declared model, fitted by simulation: a predictor follows filtered noise, and its
     parameters go astray. kinds: effects that are asked about, for a robot behind a filter may be
-    late besides. None where the noise of a robot that stands is white, or is not seen; where a
-    filter of first order explains as much, or noise of a colour of its own does; and where the
-    odometry tells means, or comes unevenly.
+    late besides. None where the noise of a robot that stands is white, or is not seen; where noise
+    of a colour of its own explains almost as much; and where the odometry tells means, or comes
+    unevenly.
     """
     colour = _colour_at_rest(free)
     if colour is None:
@@ -46,21 +52,22 @@ def second_order_behind(free: Fit, kinds: Sequence[type[Effect]]) -> SecondOrder
     # Of a short rest what is given may seem to end what is slow: then that is a hollow.
     begun = side_by_side(plain.filtered, (colour, colour * OF_PAST))
     alone = min(begun, key=attrgetter('bic'))
-    rest = max(plain.filter(colour, 0.0).lateness, 0.0)
-    late = max(alone.filter.lateness - rest, LEAST_LATE)
+    rest = max(plain.filter(colour, 0.0).lateness(plain.interval), 0.0)
+    late = max(alone.filter.lateness(plain.interval) - rest, LEAST_LATE)
     late_kinds = [kind for kind in kinds if kind.name in LATE_EFFECTS]
     besides = [replace(plain, u=alone.u).with_late(late, kind) for kind in late_kinds]
     ends = side_by_side(lambda other: other.filtered(alone.numbers), besides)
     best = min((alone, *ends), key=attrgetter('bic'))
-    simple = replace(best.structure, u=best.u).filtered(colour[:1])
-    if simple.bic <= best.bic + VERY_STRONG:
-        return None
+    delay = max(best.filter.lateness(plain.interval) / plain.interval, SHORTEST)
+    simple = replace(best.structure, u=best.u).filtered(first_order(delay))
+    likelier = simple if simple.bic <= best.bic + VERY_STRONG else best
     # Without a filter the robot must be as late as it is with one behind it. On a rough floor such
     # a colour is known less well than a filter is.
     pairs = zip(late_kinds, ends, strict=True)
     instead = [replace(plain, u=end.u[:-1]).with_late(end.lateness, kind) for kind, end in pairs]
     noise = side_by_side(lambda other: other.coloured(colour), (plain, *instead))
-    return best.filter if best.bic + BEYOND_ALL < min(end.bic for end in noise) else None
+    other = min(end.bic for end in noise)
+    return likelier.filter if likelier.bic + BEYOND_ALL < other else None
 
 
 def _colour_at_rest(free: Fit) -> Array | None:

@@ -44,6 +44,11 @@ def polynomials(point: Array) -> tuple[Array, Array]:
     return _stable(reflected[:2]), _stable(reflected[2:])
 
 
+def first_order(delay: float) -> Array:
+    """Return the number that stands for a filter of first order, of a delay in samples, (1,)."""
+    return np.arctanh([-delay / (1.0 + delay)])
+
+
 def standing_noise(fit: Fit) -> list[Array]:
     """Return the noise of twists (k, 2) while the robot stands, by a model that runs free.
 

@@ -19,9 +19,8 @@ Age = Callable[[float, float], float]
 class Filter(Protocol):
     """A low-pass filter of twists."""
 
-    @property
-    def lateness(self) -> float:
-        """By how much it delays what changes slowly [s]."""
+    def lateness(self, interval: float) -> float:
+        """Return by how much it delays what changes slowly [s], at an interval of the odometry."""
 
     def undone(self, time: Array, twist: Array) -> tuple[Array, Array]:
         """Return the stamps and twists that it was given; the first sample as it is."""
@@ -62,10 +61,10 @@ class FirstOrder(NamedTuple):
     time_constant: float
     age: Age
 
-    @property
-    def lateness(self) -> float:
-        """By how much it delays what changes slowly [s]: its time constant."""
-        return self.time_constant
+    def lateness(self, interval: float) -> float:
+        """Return by how much it delays what changes slowly [s], at an interval of the odometry."""
+        told = interval / float(np.expm1(interval / self.time_constant))
+        return told + self.age(self.time_constant, interval)
 
     def undone(self, time: Array, twist: Array) -> tuple[Array, Array]:
         """Return the stamps and twists that it was given; the first sample as it is."""
@@ -81,7 +80,7 @@ def passed_at_once(time: Array, time_constant: float) -> Array:
 
 @dataclass(frozen=True)
 class SecondOrder:
-    """A filter of second order that is told each sample: past · y = share · given · u.
+    """A filter of second order or first that is told each sample: past · y = share · given · u.
 
     past, given: what counts of the latest three samples that it told and was told, the latest
     first, with 1; share: so much that a steady twist stays what it is. interval [s]: between
@@ -98,9 +97,8 @@ class SecondOrder:
         """The share of a change that it lets through at once."""
         return sum(self.past) / sum(self.given)
 
-    @property
-    def lateness(self) -> float:
-        """By how much it delays what changes slowly [s], the age of what it is told included."""
+    def lateness(self, interval: float) -> float:
+        """Return by how much it delays what changes slowly [s], as it is told: at its interval."""
         given, past = (float(np.arange(len(by)) @ by) / sum(by) for by in (self.given, self.past))
         return (given - past) * self.interval + self.age
 
