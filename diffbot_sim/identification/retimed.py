@@ -16,8 +16,9 @@ from diffbot_sim.identification.finding import (
 )
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filtering import Likelier, filter_behind
+from diffbot_sim.identification.fitting.filter_fits import Ended
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
-from diffbot_sim.identification.fitting.second_order import filter_seen_at_rest
+from diffbot_sim.identification.fitting.second_order import filter_seen_at_rest, with_structure
 from diffbot_sim.identification.found import Begun, Found
 from diffbot_sim.identification.leading import lead_of
 from diffbot_sim.identification.older import (
@@ -37,6 +38,8 @@ from diffbot_sim.identification.selection.trials import OUTDONE
 
 # What a force depends on where more of the twists is late than was allowed for.
 PAST_OF_COMMANDS = ('past_force', 'force_change')
+# Filters that delay twists alike, within this share of an interval, are one.
+ALIKE = 0.03
 
 
 def timed(recordings: Recordings, question: Question) -> Found:
@@ -46,9 +49,9 @@ def timed(recordings: Recordings, question: Question) -> Found:
     often nothing else needs to be.
     """
     begun = begun_with(recordings.each(timely), question)
-    behind = filter_seen_at_rest(begun.recalibrated, question.kinds)
-    if behind is not None:
-        return _undoing(behind, begun.recordings, question)
+    seen = filter_seen_at_rest(begun.recalibrated, question.kinds)
+    if seen is not None:
+        return _undoing_seen(seen, begun.recordings, question)
     taken = _Taken(begun.recordings, question)
     older = Ages(begun.base, begun.recordings).beyond_doubt(question.kinds)
     if older is not None:
@@ -142,6 +145,15 @@ def _unfiltered(found: Found, behind: Likelier, question: Question) -> Found:
     if other.unexplained and not found.unexplained and other.unexplained.worth > behind.worth:
         return found
     return other
+
+
+def _undoing_seen(seen: Ended, recordings: Recordings, question: Question) -> Found:
+    """Search where a filter is undone, and again where what is found tells that it is another."""
+    found = _undoing(seen.filter, recordings, question)
+    again = with_structure(seen, found.undoubted.final)
+    if abs(again.delay - seen.delay) < ALIKE * again.structure.interval:
+        return found
+    return _undoing(again.filter, recordings, question)
 
 
 def _undoing(behind: Filter, recordings: Recordings, question: Question) -> Found:

@@ -53,11 +53,14 @@ class Ended:
         return self.structure.filter(self.numbers, self.age)
 
     @property
+    def delay(self) -> float:
+        """How late twists are by the filter [s]."""
+        return self.filter.lateness(self.structure.interval)
+
+    @property
     def lateness(self) -> float:
         """How late twists are [s]: by the robot, and by the filter."""
-        return lateness_of(self.structure.space.values(self.u)) + self.filter.lateness(
-            self.structure.interval
-        )
+        return lateness_of(self.structure.space.values(self.u)) + self.delay
 
     @property
     def bic(self) -> float:

@@ -1,7 +1,7 @@
-"""Filters that are told by the noise of a robot that stands, and fitted with its motion.
+"""Filters of second order: told by the noise of a robot that stands, and fitted with its motion.
 
-Estimators smooth twists by one of first order, by Butterworth's, an alpha-beta or a Kalman filter.
-Once one is undone errors are white and the robot is in time: the same filter must tell both.
+Estimators smooth twists by Butterworth's filter, an alpha-beta filter or a Kalman filter. Once one
+is undone errors are white and the robot is in time: the same filter must account for both.
 """
 
 from collections.abc import Sequence
@@ -10,14 +10,13 @@ from operator import attrgetter
 
 import numpy as np
 
-from diffbot_sim.identification.fitting.filter_fits import Behind
+from diffbot_sim.identification.fitting.filter_fits import Behind, Ended
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.standing_noise import (
     colour_of,
     first_order,
     standing_noise,
 )
-from diffbot_sim.identification.recordings.filters import SecondOrder
 from diffbot_sim.identification.recordings.lateness import LATE_EFFECTS
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
@@ -36,14 +35,14 @@ LEAST_LATE = 0.02
 SHORTEST = 0.1
 
 
-def filter_seen_at_rest(free: Fit, kinds: Sequence[type[Effect]]) -> SecondOrder | None:
-    """Return a filter that twists went through, of second order at most, if that is beyond doubt.
+def filter_seen_at_rest(free: Fit, kinds: Sequence[type[Effect]]) -> Ended | None:
+    """Return a filter of second order that twists went through, if that is beyond doubt.
 
     free: the declared model, fitted by simulation: a predictor follows filtered noise, and its
     parameters go astray. kinds: effects that are asked about, for a robot behind a filter may be
-    late besides. None where the noise of a robot that stands is white, or is not seen; where noise
-    of a colour of its own explains almost as much; and where the odometry tells means, or comes
-    unevenly.
+    late besides. None where the noise of a robot that stands is white, or is not seen; where a
+    filter of first order explains as much, or noise of a colour of its own almost does; and where
+    the odometry tells means, or comes unevenly.
     """
     colour = _colour_at_rest(free)
     if colour is None:
@@ -53,21 +52,27 @@ def filter_seen_at_rest(free: Fit, kinds: Sequence[type[Effect]]) -> SecondOrder
     begun = side_by_side(plain.filtered, (colour, colour * OF_PAST))
     alone = min(begun, key=attrgetter('bic'))
     rest = max(plain.filter(colour, 0.0).lateness(plain.interval), 0.0)
-    late = max(alone.filter.lateness(plain.interval) - rest, LEAST_LATE)
+    late = max(alone.delay - rest, LEAST_LATE)
     late_kinds = [kind for kind in kinds if kind.name in LATE_EFFECTS]
     besides = [replace(plain, u=alone.u).with_late(late, kind) for kind in late_kinds]
     ends = side_by_side(lambda other: other.filtered(alone.numbers), besides)
     best = min((alone, *ends), key=attrgetter('bic'))
-    delay = max(best.filter.lateness(plain.interval) / plain.interval, SHORTEST)
+    delay = max(best.delay / plain.interval, SHORTEST)
     simple = replace(best.structure, u=best.u).filtered(first_order(delay))
-    likelier = simple if simple.bic <= best.bic + VERY_STRONG else best
+    if simple.bic <= best.bic + VERY_STRONG:
+        return None
     # Without a filter the robot must be as late as it is with one behind it. On a rough floor such
     # a colour is known less well than a filter is.
     pairs = zip(late_kinds, ends, strict=True)
     instead = [replace(plain, u=end.u[:-1]).with_late(end.lateness, kind) for kind, end in pairs]
     noise = side_by_side(lambda other: other.coloured(colour), (plain, *instead))
-    other = min(end.bic for end in noise)
-    return likelier.filter if likelier.bic + BEYOND_ALL < other else None
+    return best if best.bic + BEYOND_ALL < min(end.bic for end in noise) else None
+
+
+def with_structure(behind: Ended, final: Fit) -> Ended:
+    """Fit a filter again with a structure that was found once it was undone."""
+    structure = replace(behind.structure, space=final.space, u=final.u)
+    return structure.filtered(behind.numbers)
 
 
 def _colour_at_rest(free: Fit) -> Array | None:

@@ -80,7 +80,7 @@ def passed_at_once(time: Array, time_constant: float) -> Array:
 
 @dataclass(frozen=True)
 class SecondOrder:
-    """A filter of second order or first that is told each sample: past · y = share · given · u.
+    """A filter of second order that is told each sample: past · y = share · given · u.
 
     past, given: what counts of the latest three samples that it told and was told, the latest
     first, with 1; share: so much that a steady twist stays what it is. interval [s]: between
