@@ -15,8 +15,8 @@ from diffbot_sim.identification.finding import (
     tried_first,
 )
 from diffbot_sim.identification.fitting.coordinates import Space
-from diffbot_sim.identification.fitting.filtering import Likelier, filter_behind
 from diffbot_sim.identification.fitting.filter_fits import Ended
+from diffbot_sim.identification.fitting.filtering import Likelier, filter_behind
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
 from diffbot_sim.identification.fitting.second_order import filter_seen_at_rest, with_structure
 from diffbot_sim.identification.found import Begun, Found
