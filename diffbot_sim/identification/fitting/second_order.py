@@ -48,24 +48,12 @@ def filter_seen_at_rest(free: Fit, kinds: Sequence[type[Effect]]) -> Ended | Non
     if colour is None:
         return None
     plain = Behind(free.space, free.u, restarted(free.model, free.stretches))
-    # Of a short rest what is given may seem to end what is slow: then that is a hollow.
-    begun = side_by_side(plain.filtered, (colour, colour * OF_PAST))
-    alone = min(begun, key=attrgetter('bic'))
-    rest = max(plain.filter(colour, 0.0).lateness(plain.interval), 0.0)
-    late = max(alone.delay - rest, LEAST_LATE)
-    late_kinds = [kind for kind in kinds if kind.name in LATE_EFFECTS]
-    besides = [replace(plain, u=alone.u).with_late(late, kind) for kind in late_kinds]
-    ends = side_by_side(lambda other: other.filtered(alone.numbers), besides)
-    best = min((alone, *ends), key=attrgetter('bic'))
-    delay = max(best.delay / plain.interval, SHORTEST)
-    simple = replace(best.structure, u=best.u).filtered(first_order(delay))
-    if simple.bic <= best.bic + VERY_STRONG:
+    ends = _filtered(plain, colour, [kind for kind in kinds if kind.name in LATE_EFFECTS])
+    best = min(ends, key=attrgetter('bic'))
+    if _of_first_order(best).bic <= best.bic + VERY_STRONG:
         return None
-    # Without a filter the robot must be as late as it is with one behind it. On a rough floor such
-    # a colour is known less well than a filter is.
-    pairs = zip(late_kinds, ends, strict=True)
-    instead = [replace(plain, u=end.u[:-1]).with_late(end.lateness, kind) for kind, end in pairs]
-    noise = side_by_side(lambda other: other.coloured(colour), (plain, *instead))
+    # On a rough floor noise of a colour is known less well than a filter is.
+    noise = side_by_side(lambda end: _instead(plain, end).coloured(colour), ends)
     return best if best.bic + BEYOND_ALL < min(end.bic for end in noise) else None
 
 
@@ -73,6 +61,30 @@ def with_structure(behind: Ended, final: Fit) -> Ended:
     """Fit a filter again with a structure that was found once it was undone."""
     structure = replace(behind.structure, space=final.space, u=final.u)
     return structure.filtered(behind.numbers)
+
+
+def _filtered(plain: Behind, colour: Array, late: Sequence[type[Effect]]) -> list[Ended]:
+    """Fit a filter to a structure as it is, and with each of the effects that make it late."""
+    # Of a short rest what is given may seem to end what is slow: then that is a hollow.
+    begun = side_by_side(plain.filtered, (colour, colour * OF_PAST))
+    alone = min(begun, key=attrgetter('bic'))
+    rest = plain.filter(colour, 0.0).lateness(plain.interval)
+    more = max(alone.delay - max(rest, 0.0), LEAST_LATE)
+    besides = [replace(plain, u=alone.u).with_late(more, kind) for kind in late]
+    return [alone, *side_by_side(lambda other: other.filtered(alone.numbers), besides)]
+
+
+def _of_first_order(best: Ended) -> Ended:
+    """Fit a filter of first order in the place of one of second."""
+    structure = replace(best.structure, u=best.u)
+    return structure.filtered(first_order(max(best.delay / structure.interval, SHORTEST)))
+
+
+def _instead(plain: Behind, end: Ended) -> Behind:
+    """Return a structure without a filter: its robot is as late as it was with one behind it."""
+    late = end.structure.space.kinds[len(plain.space.kinds) :]
+    structure = replace(plain, u=end.u[: len(plain.u)])
+    return structure.with_late(end.lateness, late[0]) if late else structure
 
 
 def _colour_at_rest(free: Fit) -> Array | None:
