@@ -53,6 +53,13 @@ class Ended:
         return self.structure.filter(self.numbers, self.age)
 
     @property
+    def undone(self) -> list[Stretch]:
+        """The stretches, their twists as the filter was given them but for its share."""
+        behind = self.filter
+        given = (before(stretch, behind) for stretch in self.structure.stretches)
+        return [replace(stretch, twist=behind.at_once * stretch.twist) for stretch in given]
+
+    @property
     def delay(self) -> float:
         """How late twists are by the filter [s]."""
         return self.filter.lateness(self.structure.interval)

@@ -13,9 +13,12 @@ import numpy as np
 from diffbot_sim.identification.fitting.filter_fits import Behind, Ended
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.standing_noise import (
+    Colour,
     colour_of,
     first_order,
+    rests_of,
     standing_noise,
+    worth_of,
 )
 from diffbot_sim.identification.recordings.lateness import LATE_EFFECTS
 from diffbot_sim.identification.recordings.start import restarted
@@ -29,6 +32,9 @@ from diffbot_sim.records import Array
 EVEN, MOST = 0.25, 0.99
 # How far the numbers of a filter go at most where fits begin; and those of what is past alone.
 NEAR, OF_PAST = 2.0, np.array([1.0, 1.0, 0.0, 0.0])
+# A filter explains at least this share of what a colour does of the noise of a robot that stands,
+# and is ahead of what it is told by no more than this share of an interval.
+MOST_OF, EARLY = 0.7, 0.25
 # A robot that is late besides is taken to be so by this at least [s], where its fit begins.
 LEAST_LATE = 0.02
 # The shortest delay, in samples, at which a filter of first order begins to be fitted.
@@ -44,17 +50,22 @@ def filter_seen_at_rest(free: Fit, kinds: Sequence[type[Effect]]) -> Ended | Non
     filter of first order explains as much, or noise of a colour of its own almost does; and where
     the odometry tells means, or comes unevenly.
     """
-    colour = _colour_at_rest(free)
+    rests = rests_of(free)
+    noise = standing_noise(free.stretches, rests)
+    colour = _colour_of(noise) if _are_even(free.stretches) else None
     if colour is None:
         return None
     plain = Behind(free.space, free.u, restarted(free.model, free.stretches))
-    ends = _filtered(plain, colour, [kind for kind in kinds if kind.name in LATE_EFFECTS])
+    ends = _filtered(plain, colour.point, [kind for kind in kinds if kind.name in LATE_EFFECTS])
     best = min(ends, key=attrgetter('bic'))
+    white = standing_noise(best.undone, rests)
+    if worth_of(noise, white) < MOST_OF * colour.worth or best.delay < -EARLY * plain.interval:
+        return None
     if _of_first_order(best).bic <= best.bic + VERY_STRONG:
         return None
     # On a rough floor noise of a colour is known less well than a filter is.
-    noise = side_by_side(lambda end: _instead(plain, end).coloured(colour), ends)
-    return best if best.bic + BEYOND_ALL < min(end.bic for end in noise) else None
+    others = side_by_side(lambda end: _instead(plain, end).coloured(colour.point), ends)
+    return best if best.bic + BEYOND_ALL < min(end.bic for end in others) else None
 
 
 def with_structure(behind: Ended, final: Fit) -> Ended:
@@ -87,19 +98,19 @@ def _instead(plain: Behind, end: Ended) -> Behind:
     return structure.with_late(end.lateness, late[0]) if late else structure
 
 
-def _colour_at_rest(free: Fit) -> Array | None:
-    """Return the numbers of the colour that noise has while the robot stands; None if white."""
-    interval = free.stretches[0].interval
-    even = all(_is_even(stretch, interval) for stretch in free.stretches)
-    rests = standing_noise(free) if even else []
-    if not rests:
+def _colour_of(noise: Sequence[Array]) -> Colour | None:
+    """Return the colour of the noise of a robot that stands; None if white, or not seen."""
+    if not noise or np.any(np.concatenate(noise).std(axis=0) == 0.0):
         return None
-    colour = colour_of(rests)
-    price = len(colour.point) * float(np.log(sum(map(np.size, rests))))
-    return np.clip(colour.point, -NEAR, NEAR) if colour.worth > price + VERY_STRONG else None
+    colour = colour_of(noise)
+    price = len(colour.point) * float(np.log(sum(map(np.size, noise))))
+    near = np.clip(colour.point, -NEAR, NEAR)
+    return colour._replace(point=near) if colour.worth > price + VERY_STRONG else None
 
 
-def _is_even(stretch: Stretch, interval: float) -> bool:
-    """Say whether twists of a stretch are of moments, so far apart [s] but for a few."""
-    apart = np.abs(np.diff(stretch.time) / interval - 1.0)
-    return not any(stretch.run.odometry.means) and bool(np.mean(apart < EVEN) > MOST)
+def _are_even(stretches: Sequence[Stretch]) -> bool:
+    """Say whether twists are of moments, and all as far apart, but for a few."""
+    interval = stretches[0].interval
+    apart = np.abs(np.concatenate([np.diff(s.time) for s in stretches]) / interval - 1.0)
+    means = any(any(stretch.run.odometry.means) for stretch in stretches)
+    return not means and bool(np.mean(apart < EVEN) > MOST)

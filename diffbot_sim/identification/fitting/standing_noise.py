@@ -21,6 +21,8 @@ UNKNOWN = 5
 # Where fits of a colour begin: a lag, a slow oscillation, one behind a mean of three samples.
 STARTS = ((-0.5, 0.1, 0.0, 0.0), (-2.0, 1.0, 0.0, 0.0), (-1.5, 0.5, 0.8, 0.5))
 EVALUATIONS = 60
+# The number that stands for no colour.
+WHITE = np.zeros(1)
 # No root is nearer to the circle where a filter never forgets.
 NEAREST = 0.995
 
@@ -49,41 +51,45 @@ def first_order(delay: float) -> Array:
     return np.arctanh([-delay / (1.0 + delay)])
 
 
-def standing_noise(fit: Fit) -> list[Array]:
-    """Return the noise of twists (k, 2) while the robot stands, by a model that runs free.
-
-    Over its deviation, v and ω alike.
-    """
-    rests = [rest for stretch in fit.stretches for rest in _rests(fit.model, stretch)]
-    if not rests:
-        return []
-    deviation = np.concatenate(rests).std(axis=0)
-    return [rest / deviation for rest in rests] if np.all(deviation > 0.0) else []
+def rests_of(fit: Fit) -> tuple[list[slice], ...]:
+    """Return the samples of each stretch at which the robot stands, by a model that runs free."""
+    return tuple(_rests(fit.model, stretch) for stretch in fit.stretches)
 
 
-def colour_of(rests: Sequence[Array]) -> Colour:
+def standing_noise(stretches: Sequence[Stretch], rests: Sequence[Sequence[slice]]) -> list[Array]:
+    """Return the twists (k, 2) of each rest about their mean."""
+    pairs = zip(stretches, rests, strict=True)
+    pieces = [stretch.twist[rest] for stretch, of_stretch in pairs for rest in of_stretch]
+    return [piece - piece.mean(axis=0) for piece in pieces]
+
+
+def colour_of(noise: Sequence[Array]) -> Colour:
     """Return the colour of second order that explains the noise of a robot that stands best."""
+    deviation = np.concatenate(noise).std(axis=0)
 
     def errors(point: Array) -> Array:
         past, given = polynomials(point)
-        white = [lfilter(past, given, rest, axis=0)[UNKNOWN:] for rest in rests]
+        white = [lfilter(past, given, piece / deviation, axis=0)[UNKNOWN:] for piece in noise]
         return np.concatenate(white).ravel()
 
     ends = [least_squares(errors, start, max_nfev=EVALUATIONS) for start in STARTS]
     best = min(ends, key=lambda end: float(end.cost))
-    as_they_are = np.concatenate([rest[UNKNOWN:] for rest in rests])
-    fall = np.log(np.mean(as_they_are**2) / np.mean(best.fun**2))
-    return Colour(best.x, float(as_they_are.size * fall))
+    fall = np.log(np.mean(errors(WHITE) ** 2) / np.mean(best.fun**2))
+    return Colour(best.x, float(len(best.fun) * fall))
 
 
-def _rests(model: Model, stretch: Stretch) -> list[Array]:
-    """Return the twists of each rest about their mean."""
+def worth_of(noise: Sequence[Array], white: Sequence[Array]) -> float:
+    """Return by how much -2 log-likelihood of noise falls if what is left of it is white."""
+    before, after = (np.concatenate(pieces).var(axis=0) for pieces in (noise, white))
+    return float(sum(map(len, noise)) * np.log(before / after).sum())
+
+
+def _rests(model: Model, stretch: Stretch) -> list[slice]:
     still = np.all(predict(model, stretch, NO_GAIN).twist == 0.0, axis=1)
     moved = np.maximum.accumulate(np.where(still, -np.inf, stretch.time))
     resting = still & (stretch.time > moved + COASTING)
     ends = np.flatnonzero(np.diff(np.concatenate([[0], resting, [0]])))
-    pieces = [stretch.twist[begin:end] for begin, end in ends.reshape(-1, 2)]
-    return [piece - piece.mean(axis=0) for piece in pieces if len(piece) >= SHORTEST]
+    return [slice(begin, end) for begin, end in ends.reshape(-1, 2) if end - begin >= SHORTEST]
 
 
 def _stable(reflected: Array) -> Array:
