@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from fits import without_pose
 from hypothesis import given
 from hypothesis import strategies as st
 from rehearsal import Surroundings, random_forces, rehearse
@@ -31,8 +32,8 @@ COLOUR = np.array([1.0, 0.5]), np.array([1.0, -1.2, 0.45])
 def driven(*effects: object, seed: int = 3, roughness: float = 0.0) -> Run:
     """Return three quarters of a minute of random forces, with stops, without a pose."""
     around = Surroundings(0.008, 0.016, roughness)
-    run = rehearse(Model(effects=effects), random_forces(seed, 45.0, -9.0, 11.0), around, seed)
-    return told(run, run.odometry.twist)
+    forces = random_forces(seed, 45.0, -9.0, 11.0)
+    return without_pose(rehearse(Model(effects=effects), forces, around, seed))
 
 
 def told(run: Run, twist: Array) -> Run:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.recordings.filters import Filter
@@ -11,6 +12,7 @@ from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.result import Structure, Timing
 from diffbot_sim.identification.selection.stepwise import Selection
+from diffbot_sim.records import Run
 
 
 @dataclass(frozen=True)
@@ -79,14 +81,17 @@ class Found:
 
     def _of_twists(self, given: Recordings) -> Iterator[Timing]:
         if self.behind is not None:
-            intervals = (median_interval(run.odometry.time) for run in given.all)
-            late = (max(0.0, self.behind.lateness(interval)) for interval in intervals)
-            return (
-                Timing(run.name, by, 'filter') for run, by in zip(given.all, late, strict=True)
-            )
+            return map(partial(_behind, self.behind), given.all)
         if self.undecided:
             return (Timing(run.name, half_interval(run), 'undecided') for run in given.all)
         if self.noisy is None:
             return filter(None, map(timing, given.all, self.recordings.all))
         before = map(timing, given.all, given.each(timely).all)
         return filter(None, [*before, *map(timing, self.noisy.all, self.recordings.all)])
+
+
+def _behind(behind: Filter, run: Run) -> Timing:
+    """Return how late a filter makes the twists of a run; one that looks ahead, not at all."""
+    return Timing(
+        run.name, max(0.0, behind.lateness(median_interval(run.odometry.time))), 'filter'
+    )

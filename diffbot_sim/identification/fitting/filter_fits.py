@@ -9,6 +9,7 @@ from scipy.signal import lfilter
 
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import (
+    EVALUATIONS,
     FIRST_GAINS,
     UNIT,
     joint_bounds,
@@ -25,8 +26,8 @@ from diffbot_sim.identification.statistics.minimisation import Bounds, Errors, P
 from diffbot_sim.physics.effects import Effect
 from diffbot_sim.records import Array
 
-# Rounds of the fits that are compared, and evaluations in each.
-ROUNDS, EVALUATIONS = 4, 10
+# Rounds of the fits that are compared.
+ROUNDS = 4
 # How old what a filter is told may be, in intervals of the odometry, and where fits of it begin.
 OLDEST, OLD = np.array([1.2]), np.array([0.3])
 # How far the numbers of a filter may go, and how far from where they begin they may well be.

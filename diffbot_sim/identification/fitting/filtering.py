@@ -52,7 +52,7 @@ class Likelier(NamedTuple):
 
     def outdoes(self, fit: Fit, other: Fit) -> bool:
         """Say whether it explains more of what a fit leaves than another fit does."""
-        return self.worth > cost_of(fit) - cost_of(other)
+        return self.worth > _cost(fit) - _cost(other)
 
 
 def filter_behind(fit: Fit) -> Likelier | None:
@@ -72,7 +72,7 @@ def filter_behind(fit: Fit) -> Likelier | None:
     late = lateness_of(values)
     if late <= 0.0:
         return None
-    cost = cost_of(fit)
+    cost = _cost(fit)
     found = [
         told
         for name, effect in zip(LATE, LATE_EFFECTS, strict=True)
@@ -130,7 +130,7 @@ class _Look(NamedTuple):
         stretches = restarted(self.left.space.model(start), undone)
         fit = fit_prediction(self.left.space, stretches, start, gains, ROUNDS)
         shares = [passed_at_once(s.time, time_constant)[s.used[1:]] for s in stretches]
-        return cost_of(fit) + 4.0 * float(np.log(np.concatenate(shares)).sum()), fit
+        return _cost(fit) + 4.0 * float(np.log(np.concatenate(shares)).sum()), fit
 
 
 def _likelier(
@@ -154,7 +154,7 @@ def _allowed(stretches: Sequence[Stretch], near: float) -> float:
 
 def _cost_of_colour(fit: Fit) -> float:
     """Return -2 log-likelihood where all that past errors tell is the colour of the noise."""
-    return cost_of(fit_simulation(fit.space, fit.stretches, fit.u))
+    return _cost(fit_simulation(fit.space, fit.stretches, fit.u))
 
 
 def _cost_of_lag(fit: Fit, near: float) -> float:
@@ -166,9 +166,9 @@ def _cost_of_lag(fit: Fit, near: float) -> float:
     kept = (kind for kind in fit.space.kinds if kind.name not in LATE_EFFECTS)
     start = np.append(np.delete(fit.u, late), point_of(ActuatorLag, (near,)))
     space = Space(fit.space.declared, (*kept, ActuatorLag))
-    return cost_of(fit_prediction(space, fit.stretches, start, fit.gains))
+    return _cost(fit_prediction(space, fit.stretches, start, fit.gains))
 
 
-def cost_of(fit: Fit) -> float:
+def _cost(fit: Fit) -> float:
     """Return -2 log-likelihood of what past errors do not tell, less what all fits share."""
     return deviance_beyond_past(fit.whitened, fit.sigma)

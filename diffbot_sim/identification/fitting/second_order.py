@@ -50,9 +50,11 @@ def filter_seen_at_rest(free: Fit, kinds: Sequence[type[Effect]]) -> Ended | Non
     filter of first order explains as much, or noise of a colour of its own almost does; and where
     the odometry tells means, or comes unevenly.
     """
+    if not _are_even(free.stretches):
+        return None
     rests = rests_of(free)
     noise = standing_noise(free.stretches, rests)
-    colour = _colour_of(noise) if _are_even(free.stretches) else None
+    colour = _colour_of(noise)
     if colour is None:
         return None
     plain = Behind(free.space, free.u, restarted(free.model, free.stretches))
