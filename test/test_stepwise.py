@@ -11,7 +11,7 @@ from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, complete
 from diffbot_sim.identification.selection.evidence import compare, likelihood_ratio, rise_without
 from diffbot_sim.identification.selection.screening import Screen
-from diffbot_sim.identification.selection.stepwise import Selection, Tried, select, tried_on
+from diffbot_sim.identification.selection.stepwise import Selection, Tried, forward, select
 from diffbot_sim.identification.selection.trials import (
     CHANCE,
     ESSENTIAL_SHARE,
@@ -38,9 +38,9 @@ def test_name_is_told_only_where_the_data_can_tell_it_from_none(
 ) -> None:
     dragging, noisy = Model(effects=(QuadraticDrag(coefficient),)), Surroundings(0.015, 0.03)
     fit, held_out = fitted(rehearse(dragging, random_forces(3, 60.0, -9.0, 11.0), noisy, 3))
-    first = tried_on(fit, [QuadraticDrag], held_out, lambda text: None)
-    assert first.trials[0].accepted
-    found = select(first, [QuadraticDrag], held_out, lambda text: None)
+    path = forward(fit, [QuadraticDrag], held_out, lambda text: None)
+    assert path[0].trials[0].accepted
+    found = select(path, [QuadraticDrag], held_out, lambda text: None)
     assert list(found.support) == names
     assert [told.outcome for told in found.trials] == [SUPPORTED if names else NEEDLESS]
 
@@ -78,8 +78,8 @@ def hiding() -> tuple[Tried, Selection, Held]:
     drive, noisy = random_forces(4, 60.0, -9.0, 11.0), Surroundings(0.015, 0.03)
     fit, held_out = fitted(rehearse(Model(effects=acting), drive, noisy, 4))
     kinds = [ActuatorGain, WheelFrictionAsymmetry, QuadraticDrag]
-    first = tried_on(fit, kinds, held_out, lambda text: None)
-    return first, select(first, kinds, held_out, lambda text: None), held_out
+    path = forward(fit, kinds, held_out, lambda text: None)
+    return path[0], select(path, kinds, held_out, lambda text: None), held_out
 
 
 def test_effects_that_hide_each_other_are_found_together(
@@ -100,8 +100,8 @@ def test_what_was_hidden_goes_with_what_hid_it(hiding: tuple[Tried, Selection, H
 def test_what_is_found_counts_the_shapes_tried() -> None:
     drifting = Model(effects=(FrictionDrift(0.3, 0.0, 20.0),))
     fit, held_out = fitted(rehearse(drifting, random_forces(3, 60.0, -9.0, 11.0), SMOOTH, 3))
-    first = tried_on(fit, [FrictionDrift], held_out, lambda text: None)
-    found = select(first, [FrictionDrift], held_out, lambda text: None)
+    path = forward(fit, [FrictionDrift], held_out, lambda text: None)
+    found = select(path, [FrictionDrift], held_out, lambda text: None)
     (trial,), (rest,), (told,) = found.trials, found.without.values(), found.support.values()
     assert trial.looks > 1
     alone = compare(rest, found.final, held_out)

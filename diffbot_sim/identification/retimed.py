@@ -1,5 +1,6 @@
 """The search again, where twists or forces prove to be of other moments than their stamps."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -8,11 +9,11 @@ import numpy as np
 from diffbot_sim.identification.finding import (
     Question,
     begun_with,
+    entered,
     found_from,
     found_in,
     found_still,
     settled,
-    tried_first,
 )
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filter_fits import Ended
@@ -58,9 +59,9 @@ def timed(recordings: Recordings, question: Question) -> Found:
         found = taken.as_older(older)
         if is_beyond_doubt(older, found.selection.final, begun.recordings, question.kinds):
             return found
-    tried = tried_first(begun, question)
-    filtered = _filtered_beyond_doubt(begun, tried, question)
-    return filtered or _held_against_older(found_from(begun, tried, question), taken, question)
+    path = entered(begun, question)
+    filtered = _filtered_beyond_doubt(begun, path, question)
+    return filtered or _held_against_older(found_from(begun, path, question), taken, question)
 
 
 class _Taken:
@@ -104,15 +105,20 @@ def _outdoes(behind: Likelier, fit: Fit, ages: Ages, older: Older) -> bool:
     return all(behind.outdoes(fit, other) for other in ages.fits(older))
 
 
-def _filtered_beyond_doubt(begun: Begun, tried: Tried, question: Question) -> Found | None:
+def _filtered_beyond_doubt(
+    begun: Begun, path: Sequence[Tried], question: Question
+) -> Found | None:
     """Search where a filter of the twists is undone, if the first effect to enter stands for one.
 
+    So it must beside all that entered after it, too: of a late robot the rest may look like that.
     Nothing else needs to be searched if means explain less, nothing is unexplained then, and the
     filter stands up to what is found, too.
     """
-    first = tried.best
+    first = path[0].best
     behind = None if first is None else filter_behind(first)
     if first is None or behind is None:
+        return None
+    if len(path) > 2 and filter_behind(path[-1].screen.fit) is None:
         return None
     ages = Ages(first, begun.recordings)
     if not all(_outdoes(behind, first, ages, older) for older in ages.likely):

@@ -18,7 +18,7 @@ from diffbot_sim.identification.fitting.fit import (
 )
 from diffbot_sim.identification.fitting.predictor import NO_GAIN
 from diffbot_sim.identification.fitting.standing_noise import polynomials
-from diffbot_sim.identification.recordings.filters import SecondOrder, before
+from diffbot_sim.identification.recordings.filters import SecondOrder, as_let_through, before
 from diffbot_sim.identification.recordings.lateness import lateness_of
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.memory import deviance_beyond_past
@@ -55,10 +55,8 @@ class Ended:
 
     @property
     def undone(self) -> list[Stretch]:
-        """The stretches, their twists as the filter was given them but for its share."""
-        behind = self.filter
-        given = (before(stretch, behind) for stretch in self.structure.stretches)
-        return [replace(stretch, twist=behind.at_once * stretch.twist) for stretch in given]
+        """The stretches, their twists as the filter let them through at once."""
+        return [as_let_through(s, self.filter) for s in self.structure.stretches]
 
     @property
     def delay(self) -> float:
@@ -108,7 +106,8 @@ class Behind:
             u, gains, own, age = np.split(at, ends)
             behind = self.filter(own, float(age[0]))
             undone = [before(stretch, behind) for stretch in self.stretches]
-            return whitened(undone, self.space.model(u), gains, UNIT) * behind.at_once
+            missed = whitened(undone, self.space.model(u), gains, UNIT)
+            return missed * behind.at_once(self.interval)
 
         at, cost = _fitted(errors, [self._block, _of_filter(numbers), OF_AGE])
         u, _, own, age = np.split(at, ends)

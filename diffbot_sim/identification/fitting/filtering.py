@@ -15,6 +15,7 @@ from scipy.optimize import minimize_scalar
 
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
+from diffbot_sim.identification.fitting.standing_noise import denied_at_rest
 from diffbot_sim.identification.recordings.filters import (
     AGES,
     Age,
@@ -61,8 +62,9 @@ def filter_behind(fit: Fit) -> Likelier | None:
     It need explain only as much as one that is late by less than an interval of the odometry,
     unless a pose denies that twists are so late.
     None where no effect is late, nothing speaks for a filter, noise of a colour of its own or a
-    lag explains more, though no lag was asked about, or twists come in steps as coarse as the
-    errors: those were made behind any filter. Nor is one behind what is taken for means.
+    lag explains more, though no lag was asked about, the noise of a robot that stands went through
+    none, or twists come in steps as coarse as the errors: those were made behind any filter. Nor
+    is one behind what is taken for means.
     """
     if any(all(stretch.run.odometry.means) for stretch in fit.stretches):
         return None
@@ -88,7 +90,9 @@ def filter_behind(fit: Fit) -> Likelier | None:
     tried = [late * share for share in BESIDE]
     found += _likelier(fit, least - VERY_STRONG, tried, (late / WITHIN**2, late))
     least, behind = min(found, key=itemgetter(0), default=(inf, None))
-    if behind is None or least >= _cost_of_colour(fit) + VERY_STRONG:
+    if behind is None or denied_at_rest(fit, behind):
+        return None
+    if least >= _cost_of_colour(fit) + VERY_STRONG:
         return None
     if least >= _cost_of_lag(fit, behind.time_constant):
         return None

@@ -18,6 +18,7 @@ from diffbot_sim.identification.fitting.standing_noise import (
     first_order,
     rests_of,
     standing_noise,
+    tells_nothing,
     worth_of,
 )
 from diffbot_sim.identification.recordings.lateness import LATE_EFFECTS
@@ -102,7 +103,7 @@ def _instead(plain: Behind, end: Ended) -> Behind:
 
 def _colour_of(noise: Sequence[Array]) -> Colour | None:
     """Return the colour of the noise of a robot that stands; None if white, or not seen."""
-    if not noise or np.any(np.concatenate(noise).std(axis=0) == 0.0):
+    if tells_nothing(noise):
         return None
     colour = colour_of(noise)
     price = len(colour.point) * float(np.log(sum(map(np.size, noise))))

@@ -9,7 +9,9 @@ from scipy.signal import lfilter
 
 from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.predictor import NO_GAIN, predict
+from diffbot_sim.identification.recordings.filters import Filter, as_let_through
 from diffbot_sim.identification.recordings.stretches import Stretch
+from diffbot_sim.identification.statistics.guards import VERY_STRONG
 from diffbot_sim.physics.model import Model
 from diffbot_sim.records import Array
 
@@ -18,6 +20,8 @@ from diffbot_sim.records import Array
 COASTING, SHORTEST = 0.3, 15
 # Samples at the beginning of a rest that are left out, where what was before is not known.
 UNKNOWN = 5
+# A robot whose twists are spread by more than so many times what is usual at rest does move.
+MOVING = 2.0
 # Where fits of a colour begin: a lag, a slow oscillation, one behind a mean of three samples.
 STARTS = ((-0.5, 0.1, 0.0, 0.0), (-2.0, 1.0, 0.0, 0.0), (-1.5, 0.5, 0.8, 0.5))
 EVALUATIONS = 60
@@ -25,6 +29,13 @@ EVALUATIONS = 60
 WHITE = np.zeros(1)
 # No root is nearer to the circle where a filter never forgets.
 NEAREST = 0.995
+
+
+class Rest(NamedTuple):
+    """Where a robot stands: the number of the stretch, and its samples there."""
+
+    stretch: int
+    samples: slice
 
 
 class Colour(NamedTuple):
@@ -51,15 +62,21 @@ def first_order(delay: float) -> Array:
     return np.arctanh([-delay / (1.0 + delay)])
 
 
-def rests_of(fit: Fit) -> tuple[list[slice], ...]:
-    """Return the samples of each stretch at which the robot stands, by a model that runs free."""
-    return tuple(_rests(fit.model, stretch) for stretch in fit.stretches)
+def rests_of(fit: Fit) -> list[Rest]:
+    """Return where the robot stands by a model that runs free, but where its twists deny that."""
+    rests = [Rest(k, at) for k, s in enumerate(fit.stretches) for at in _rests(fit.model, s)]
+    if not rests:
+        return []
+    noise = standing_noise(fit.stretches, rests)
+    spread = np.array([piece.std(axis=0) for piece in noise])
+    usual = np.median(np.repeat(spread, [len(piece) for piece in noise], axis=0), axis=0)
+    steady = np.all(spread <= MOVING * usual, axis=1)
+    return [rest for rest, stands in zip(rests, steady, strict=True) if stands]
 
 
-def standing_noise(stretches: Sequence[Stretch], rests: Sequence[Sequence[slice]]) -> list[Array]:
+def standing_noise(stretches: Sequence[Stretch], rests: Sequence[Rest]) -> list[Array]:
     """Return the twists (k, 2) of each rest about their mean."""
-    pairs = zip(stretches, rests, strict=True)
-    pieces = [stretch.twist[rest] for stretch, of_stretch in pairs for rest in of_stretch]
+    pieces = [stretches[rest.stretch].twist[rest.samples] for rest in rests]
     return [piece - piece.mean(axis=0) for piece in pieces]
 
 
@@ -82,6 +99,21 @@ def worth_of(noise: Sequence[Array], white: Sequence[Array]) -> float:
     """Return by how much -2 log-likelihood of noise falls if what is left of it is white."""
     before, after = (np.concatenate(pieces).var(axis=0) for pieces in (noise, white))
     return float(sum(map(len, noise)) * np.log(before / after).sum())
+
+
+def denied_at_rest(fit: Fit, behind: Filter) -> bool:
+    """Say whether the noise of a robot that stands did not go through a filter."""
+    rests = rests_of(fit)
+    noise = standing_noise(fit.stretches, rests)
+    if tells_nothing(noise):
+        return False
+    new = standing_noise([as_let_through(s, behind) for s in fit.stretches], rests)
+    return worth_of(noise, new) < -VERY_STRONG
+
+
+def tells_nothing(noise: Sequence[Array]) -> bool:
+    """Say whether there is no noise, of speed or turn rate, to tell anything by."""
+    return not noise or bool(np.any(np.concatenate(noise).std(axis=0) == 0.0))
 
 
 def _rests(model: Model, stretch: Stretch) -> list[slice]:

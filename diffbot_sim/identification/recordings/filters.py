@@ -22,6 +22,9 @@ class Filter(Protocol):
     def lateness(self, interval: float) -> float:
         """Return by how much it delays what changes slowly [s], at an interval of the odometry."""
 
+    def at_once(self, interval: float) -> float:
+        """Return the share of a change that it lets through at once, at an interval of that."""
+
     def undone(self, time: Array, twist: Array) -> tuple[Array, Array]:
         """Return the stamps and twists that it was given; the first sample as it is."""
 
@@ -37,6 +40,15 @@ def before(stretch: Stretch, behind: Filter) -> Stretch:
     """Return a stretch whose twists, and their stamps, are those that a filter was given."""
     time, twist = behind.undone(stretch.time, stretch.twist)
     return replace(stretch, time=time, twist=twist)
+
+
+def as_let_through(stretch: Stretch, behind: Filter) -> Stretch:
+    """Return a stretch whose twists are what a filter let through at once of what it was given.
+
+    Of white noise that is what was new at each sample.
+    """
+    given = before(stretch, behind)
+    return replace(given, twist=behind.at_once(stretch.interval) * given.twist)
 
 
 def told_each_sample(time_constant: float, interval: float) -> float:
@@ -66,6 +78,10 @@ class FirstOrder(NamedTuple):
         told = interval / float(np.expm1(interval / self.time_constant))
         return told + self.age(self.time_constant, interval)
 
+    def at_once(self, interval: float) -> float:
+        """Return the share of a change that it lets through at once, at an interval of that."""
+        return -float(np.expm1(-interval / self.time_constant))
+
     def undone(self, time: Array, twist: Array) -> tuple[Array, Array]:
         """Return the stamps and twists that it was given; the first sample as it is."""
         passed = passed_at_once(time, self.time_constant)[:, None]
@@ -92,9 +108,8 @@ class SecondOrder:
     interval: float
     age: float
 
-    @property
-    def at_once(self) -> float:
-        """The share of a change that it lets through at once."""
+    def at_once(self, interval: float) -> float:
+        """Return the share of a change that it lets through at once, whatever the interval."""
         return sum(self.past) / sum(self.given)
 
     def lateness(self, interval: float) -> float:
@@ -106,4 +121,4 @@ class SecondOrder:
         """Return the stamps and twists that it was given; the first sample as it is."""
         steady = lfilter_zi(self.past, self.given)[:, None] * twist[0]
         given, _ = lfilter(self.past, self.given, twist, axis=0, zi=steady)
-        return time - self.age, np.ascontiguousarray(given / self.at_once)
+        return time - self.age, np.ascontiguousarray(given / self.at_once(self.interval))

@@ -132,16 +132,26 @@ def tried_on(
     return Tried(screen, try_all(screen, kinds, held_out, progress))
 
 
+def forward(
+    base: Fit, kinds: Sequence[type[Effect]], held_out: Sequence[Stretch], progress: Progress
+) -> tuple[Tried, ...]:
+    """Let effects enter, one by one; return the nominal structure and all that it grew to."""
+    path = [tried_on(base, kinds, held_out, progress)]
+    while (ahead := _ahead(path, kinds, held_out, progress)) is not None:
+        path.append(ahead)
+    return tuple(path)
+
+
 def select(
-    first: Tried,
+    path: Sequence[Tried],
     kinds: Sequence[type[Effect]],
     held_out: Sequence[Stretch],
     progress: Progress,
 ) -> Selection:
-    """Search the structures made of these effects, which were tried on the nominal one first."""
-    path = [first]
-    while (ahead := _ahead(path, kinds, held_out, progress)) is not None:
-        path.append(ahead)
+    """Let those effects leave again which the forward search no longer needs at its end.
+
+    path: the structures of that, the nominal one first.
+    """
     fits = [tried.screen.fit for tried in path]
     last = {trial.kind.name: trial for tried in path for trial in tried.trials}
     looks = _looks(last.values())
