@@ -59,9 +59,26 @@ def timed(recordings: Recordings, question: Question) -> Found:
         found = taken.as_older(older)
         if is_beyond_doubt(older, found.selection.final, begun.recordings, question.kinds):
             return found
-    path = entered(begun, question)
-    filtered = _filtered_beyond_doubt(begun, path, question)
-    return filtered or _held_against_older(found_from(begun, path, question), taken, question)
+    path, filters = entered(begun, question), _Filters()
+    filtered = _filtered_beyond_doubt(begun, path, filters, question)
+    if filtered is not None:
+        return filtered
+    return _held_against_older(found_from(begun, path, question), taken, filters, question)
+
+
+class _Filters:
+    """The filter behind each fit: looked for when it is asked for, and once."""
+
+    def __init__(self) -> None:
+        self._told = list[tuple[Fit, Likelier | None]]()
+
+    def behind(self, fit: Fit) -> Likelier | None:
+        """Return the filter that explains more than an effect that is late, if there is one."""
+        told = next((told for told in self._told if told[0] is fit), None)
+        if told is None:
+            told = fit, filter_behind(fit)
+            self._told.append(told)
+        return told[1]
 
 
 class _Taken:
@@ -80,11 +97,13 @@ class _Taken:
         return self._found[older]
 
 
-def _held_against_older(found: Found, taken: _Taken, question: Question) -> Found:
+def _held_against_older(
+    found: Found, taken: _Taken, filters: _Filters, question: Question
+) -> Found:
     """Hold what was found against searches in twists that are older, or went through a filter."""
     # Doubt may have withdrawn a name for what late twists left beside it.
     first = found.undoubted.final
-    ages, behind = Ages(first, found.recordings), filter_behind(first)
+    ages, behind = Ages(first, found.recordings), filters.behind(first)
     unexplained = 0.0 if found.unexplained is None else found.unexplained.worth
     for older in ages.likely if found.says_something else ():
         if behind is not None and _outdoes(behind, first, ages, older):
@@ -106,7 +125,7 @@ def _outdoes(behind: Likelier, fit: Fit, ages: Ages, older: Older) -> bool:
 
 
 def _filtered_beyond_doubt(
-    begun: Begun, path: Sequence[Tried], question: Question
+    begun: Begun, path: Sequence[Tried], filters: _Filters, question: Question
 ) -> Found | None:
     """Search where a filter of the twists is undone, if the first effect to enter stands for one.
 
@@ -118,7 +137,7 @@ def _filtered_beyond_doubt(
     behind = None if first is None else filter_behind(first)
     if first is None or behind is None:
         return None
-    if len(path) > 2 and filter_behind(path[-1].screen.fit) is None:
+    if len(path) > 2 and filters.behind(path[-1].screen.fit) is None:
         return None
     ages = Ages(first, begun.recordings)
     if not all(_outdoes(behind, first, ages, older) for older in ages.likely):
