@@ -129,7 +129,7 @@ def _filtered_beyond_doubt(
 ) -> Found | None:
     """Search where a filter of the twists is undone, if the first effect to enter stands for one.
 
-    So it must beside all that entered after it, too: of a late robot the rest may look like that.
+    It must do so beside all that entered later, too: without these a late robot looks like that.
     Nothing else needs to be searched if means explain less, nothing is unexplained then, and the
     filter stands up to what is found, too.
     """
