@@ -2,10 +2,11 @@
 
 from dataclasses import replace
 
+import numpy as np
 from rehearsal import Surroundings, rehearse
 
 from diffbot_sim.identification.fitting.coordinates import Space
-from diffbot_sim.identification.fitting.fit import FIRST_GAINS, UNIT, Fit, fit_prediction
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction
 from diffbot_sim.identification.free_forms.dependence import Dependence
 from diffbot_sim.identification.free_forms.structure import find_dependences
 from diffbot_sim.identification.recordings.stretches import Stretch, split
@@ -34,7 +35,7 @@ def without_pose(run: Run) -> Run:
 def leaving(errors: Array) -> Fit:
     """Return a fit of the plain model that leaves these errors over a scale of 1, shape (n, 2)."""
     space = Space(Model(), ())
-    fit = Fit(space, (), space.prior(), FIRST_GAINS, UNIT)
+    fit = Fit(space, (), space.prior(), FIRST_GAINS, np.ones(2))
     fit.__dict__['whitened'] = errors  # where cached_property keeps what it was asked for
     return fit
 

@@ -9,7 +9,7 @@ from counting import counted, driven
 from fits import fitted, leaving, without_pose
 
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
-from diffbot_sim.identification.fitting.fit import FIRST_GAINS, UNIT, Fit
+from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit
 from diffbot_sim.identification.older import Ages, Older, is_taken
 from diffbot_sim.identification.recordings.lateness import (
     TWIST,
@@ -30,7 +30,7 @@ def fit_of(delay: float = 0.0) -> Fit:
     space = Space(Model(), tuple(kind for kind, _ in late))
     at = np.concatenate([Space(Model(), ()).prior(), *(point for _, point in late)])
     stretches: Any = (SimpleNamespace(time=np.arange(0.0, 1.0, 0.02)),)
-    return Fit(space, stretches, at, FIRST_GAINS, UNIT)
+    return Fit(space, stretches, at, FIRST_GAINS, np.ones(2))
 
 
 def means_are_taken(worth: float, unexplained: float = 0.0, delay: float = 0.03) -> bool:

@@ -8,7 +8,7 @@ from rehearsal import Surroundings, random_forces, rehearse
 from scipy.signal import lfilter
 
 from diffbot_sim.identification.fitting.coordinates import Space
-from diffbot_sim.identification.fitting.fit import UNIT, Fit
+from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.fitting.predictor import NO_GAIN
 from diffbot_sim.identification.fitting.standing_noise import (
     denied_at_rest,
@@ -34,7 +34,7 @@ def driven(*effects: Effect) -> Run:
 def declared(run: Run) -> Fit:
     """Return the declared model on a run, as it stands: nothing is fitted."""
     space = Space(Model(), ())
-    return Fit(space, split([run])[0], space.prior(), NO_GAIN, UNIT)
+    return Fit(space, split([run])[0], space.prior(), NO_GAIN, np.ones(2))
 
 
 @pytest.mark.parametrize('went_through', [True, False])

@@ -1,5 +1,6 @@
 """The search for a structure: what enters must be needed in the end."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -7,11 +8,18 @@ import pytest
 from fits import SMOOTH, fitted
 from rehearsal import Surroundings, random_forces, rehearse
 
+from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.selection.candidates import approach, complete
 from diffbot_sim.identification.selection.evidence import compare, likelihood_ratio, rise_without
 from diffbot_sim.identification.selection.screening import Screen
-from diffbot_sim.identification.selection.stepwise import Selection, Tried, forward, select
+from diffbot_sim.identification.selection.stepwise import (
+    Selection,
+    Tried,
+    forward,
+    select,
+    tried_on,
+)
 from diffbot_sim.identification.selection.trials import (
     CHANCE,
     ESSENTIAL_SHARE,
@@ -32,13 +40,19 @@ from diffbot_sim.physics.effects.wheel_friction_asymmetry import WheelFrictionAs
 Held = tuple[Stretch, ...]
 
 
+def entered(fit: Fit, kinds: list[type[Effect]], held_out: Held) -> Sequence[Tried]:
+    """Return the structures of the forward search, from a fit of the declared model."""
+    first = tried_on(fit, kinds, held_out, lambda text: None)
+    return forward([first], kinds, held_out, lambda text: None)
+
+
 @pytest.mark.parametrize(('coefficient', 'names'), [(0.05, []), (0.1, ['quadratic_drag'])])
 def test_name_is_told_only_where_the_data_can_tell_it_from_none(
     coefficient: float, names: list[str]
 ) -> None:
     dragging, noisy = Model(effects=(QuadraticDrag(coefficient),)), Surroundings(0.015, 0.03)
     fit, held_out = fitted(rehearse(dragging, random_forces(3, 60.0, -9.0, 11.0), noisy, 3))
-    path = forward(fit, [QuadraticDrag], held_out, lambda text: None)
+    path = entered(fit, [QuadraticDrag], held_out)
     assert path[0].trials[0].accepted
     found = select(path, [QuadraticDrag], held_out, lambda text: None)
     assert list(found.support) == names
@@ -78,7 +92,7 @@ def hiding() -> tuple[Tried, Selection, Held]:
     drive, noisy = random_forces(4, 60.0, -9.0, 11.0), Surroundings(0.015, 0.03)
     fit, held_out = fitted(rehearse(Model(effects=acting), drive, noisy, 4))
     kinds = [ActuatorGain, WheelFrictionAsymmetry, QuadraticDrag]
-    path = forward(fit, kinds, held_out, lambda text: None)
+    path = entered(fit, kinds, held_out)
     return path[0], select(path, kinds, held_out, lambda text: None), held_out
 
 
@@ -100,7 +114,7 @@ def test_what_was_hidden_goes_with_what_hid_it(hiding: tuple[Tried, Selection, H
 def test_what_is_found_counts_the_shapes_tried() -> None:
     drifting = Model(effects=(FrictionDrift(0.3, 0.0, 20.0),))
     fit, held_out = fitted(rehearse(drifting, random_forces(3, 60.0, -9.0, 11.0), SMOOTH, 3))
-    path = forward(fit, [FrictionDrift], held_out, lambda text: None)
+    path = entered(fit, [FrictionDrift], held_out)
     found = select(path, [FrictionDrift], held_out, lambda text: None)
     (trial,), (rest,), (told,) = found.trials, found.without.values(), found.support.values()
     assert trial.looks > 1

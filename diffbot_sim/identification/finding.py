@@ -14,7 +14,13 @@ from diffbot_sim.identification.recordings.checks import check
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
-from diffbot_sim.identification.selection.stepwise import Tried, forward, select
+from diffbot_sim.identification.selection.stepwise import (
+    Tried,
+    forward,
+    one_more,
+    select,
+    tried_on,
+)
 from diffbot_sim.identification.selection.trials import Progress
 from diffbot_sim.identification.standing_wheels import standing
 from diffbot_sim.physics.effects import Effect
@@ -40,7 +46,7 @@ class Question:
 def found_in(recordings: Recordings, question: Question) -> Found:
     """Search in recordings that are taken as they are."""
     begun = begun_with(recordings, question)
-    return found_from(begun, entered(begun, question), question)
+    return found_from(begun, tried_first(begun, question), question)
 
 
 def found_still(found: Found, recordings: Recordings, question: Question) -> Found | None:
@@ -81,15 +87,20 @@ def begun_with(recordings: Recordings, question: Question) -> Begun:
     return Begun(recordings, held_out, recalibrated, base)
 
 
-def entered(begun: Begun, question: Question) -> tuple[Tried, ...]:
-    """Try every effect on top of the declared model, and others on top of those that enter."""
-    return forward(begun.base, question.kinds, begun.held_out, question.progress)
+def tried_first(begun: Begun, question: Question) -> Sequence[Tried]:
+    """Try every effect on top of the declared model: the path of the search begins there."""
+    return (tried_on(begun.base, question.kinds, begun.held_out, question.progress),)
+
+
+def tried_next(begun: Begun, path: Sequence[Tried], question: Question) -> Sequence[Tried]:
+    """Try every effect on top of what enters next, if anything does."""
+    return one_more(path, question.kinds, begun.held_out, question.progress)
 
 
 def found_from(begun: Begun, path: Sequence[Tried], question: Question) -> Found:
     """Find the structure, with the wheels of each run where a ripple says that they stood.
 
-    path: the structures of the forward search.
+    path: where the forward search begins, or as far as it went.
     """
     found = _doubted(begun, path, question)
     recordings = standing(found)
@@ -97,13 +108,14 @@ def found_from(begun: Begun, path: Sequence[Tried], question: Question) -> Found
         return found
     question.progress('letting wheels begin where a ripple says that they stand')
     again = begun_with(recordings, question)
-    other = _doubted(again, entered(again, question), question)
+    other = _doubted(again, tried_first(again, question), question)
     return other if WheelRipple.name in other.names else found
 
 
 def _doubted(begun: Begun, path: Sequence[Tried], question: Question) -> Found:
     """Find the structure, and doubt what was found."""
-    selection = select(path, question.kinds, begun.held_out, question.progress)
+    grown = forward(path, question.kinds, begun.held_out, question.progress)
+    selection = select(grown, question.kinds, begun.held_out, question.progress)
     question.progress('looking for structure that is left')
     doubted = doubt(Seen(selection, begun.held_out))
     return Found(begun.recordings, begun.held_out, begun.recalibrated, selection, *doubted)
@@ -121,5 +133,5 @@ def recalibrated(recordings: Recordings, question: Question) -> Found:
     """Recalibrate the declared model, and look for nothing that it lacks."""
     begun = begun_with(recordings, question)
     nothing = replace(question, known=())
-    alone = select(entered(begun, nothing), (), begun.held_out, question.progress)
+    alone = select(tried_first(begun, nothing), (), begun.held_out, question.progress)
     return Found(begun.recordings, begun.held_out, begun.recalibrated, alone, alone, None)

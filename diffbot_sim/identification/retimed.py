@@ -1,6 +1,5 @@
 """The search again, where twists or forces prove to be of other moments than their stamps."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -9,11 +8,12 @@ import numpy as np
 from diffbot_sim.identification.finding import (
     Question,
     begun_with,
-    entered,
     found_from,
     found_in,
     found_still,
     settled,
+    tried_first,
+    tried_next,
 )
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.filter_fits import Ended
@@ -34,7 +34,6 @@ from diffbot_sim.identification.recordings.filters import Filter, unfiltered
 from diffbot_sim.identification.recordings.lateness import LATE_EFFECTS, timely
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.stretches import thin
-from diffbot_sim.identification.selection.stepwise import Tried
 from diffbot_sim.identification.selection.trials import OUTDONE
 
 # What a force depends on where more of the twists is late than was allowed for.
@@ -59,26 +58,15 @@ def timed(recordings: Recordings, question: Question) -> Found:
         found = taken.as_older(older)
         if is_beyond_doubt(older, found.selection.final, begun.recordings, question.kinds):
             return found
-    path, filters = entered(begun, question), _Filters()
-    filtered = _filtered_beyond_doubt(begun, path, filters, question)
-    if filtered is not None:
-        return filtered
-    return _held_against_older(found_from(begun, path, question), taken, filters, question)
-
-
-class _Filters:
-    """The filter behind each fit: looked for when it is asked for, and once."""
-
-    def __init__(self) -> None:
-        self._told = list[tuple[Fit, Likelier | None]]()
-
-    def behind(self, fit: Fit) -> Likelier | None:
-        """Return the filter that explains more than an effect that is late, if there is one."""
-        told = next((told for told in self._told if told[0] is fit), None)
-        if told is None:
-            told = fit, filter_behind(fit)
-            self._told.append(told)
-        return told[1]
+    path = tried_first(begun, question)
+    first = path[0].best
+    behind = None if first is None else filter_behind(first)
+    if first is not None and behind is not None:
+        path = tried_next(begun, path, question)
+        filtered = _filtered_beyond_doubt(first, behind, path[-1].best, begun, question)
+        if filtered is not None:
+            return filtered
+    return _held_against_older(found_from(begun, path, question), taken, question)
 
 
 class _Taken:
@@ -97,13 +85,11 @@ class _Taken:
         return self._found[older]
 
 
-def _held_against_older(
-    found: Found, taken: _Taken, filters: _Filters, question: Question
-) -> Found:
+def _held_against_older(found: Found, taken: _Taken, question: Question) -> Found:
     """Hold what was found against searches in twists that are older, or went through a filter."""
     # Doubt may have withdrawn a name for what late twists left beside it.
     first = found.undoubted.final
-    ages, behind = Ages(first, found.recordings), filters.behind(first)
+    ages, behind = Ages(first, found.recordings), filter_behind(first)
     unexplained = 0.0 if found.unexplained is None else found.unexplained.worth
     for older in ages.likely if found.says_something else ():
         if behind is not None and _outdoes(behind, first, ages, older):
@@ -125,19 +111,15 @@ def _outdoes(behind: Likelier, fit: Fit, ages: Ages, older: Older) -> bool:
 
 
 def _filtered_beyond_doubt(
-    begun: Begun, path: Sequence[Tried], filters: _Filters, question: Question
+    first: Fit, behind: Likelier, second: Fit | None, begun: Begun, question: Question
 ) -> Found | None:
-    """Search where a filter of the twists is undone, if the first effect to enter stands for one.
+    """Search where the filter that the first effect to enter stands for is undone.
 
-    It must do so beside all that entered later, too: without these a late robot looks like that.
-    Nothing else needs to be searched if means explain less, nothing is unexplained then, and the
-    filter stands up to what is found, too.
+    Nothing else needs to be searched if it is there beside the second effect, too, without which
+    a late robot may look like that, means explain less, nothing is unexplained then, and the
+    filter stands up to what is found.
     """
-    first = path[0].best
-    behind = None if first is None else filter_behind(first)
-    if first is None or behind is None:
-        return None
-    if len(path) > 2 and filters.behind(path[-1].screen.fit) is None:
+    if second is not None and filter_behind(second) is None:
         return None
     ages = Ages(first, begun.recordings)
     if not all(_outdoes(behind, first, ages, older) for older in ages.likely):

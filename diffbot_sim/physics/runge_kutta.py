@@ -1,6 +1,6 @@
 """One smooth step of the classical fourth-order Runge-Kutta method: the body of every `Step`."""
 
-from math import cos, sin
+from math import cos, isnan, nan, sin
 from typing import Any
 
 from diffbot_sim.physics.compiled import compiled
@@ -65,9 +65,17 @@ def runge_kutta(
 def _slope(params: Array, at: Motion, now: Instant, modes: Modes) -> tuple[float, ...]:
     """Return dz/dt: eqs. (5), (7), (11) with friction (13), in the order of z."""
     right, left = accelerations(now, sliding_reaction(at, now, modes), modes)
-    dx, dy = at.v * cos(at.heading), at.v * sin(at.heading)
+    dx, dy = _over_ground(at)
     r = params[WHEEL_RADIUS]
     return dx, dy, at.omega, at.speed_right / r, at.speed_left / r, right, left
+
+
+@compiled
+def _over_ground(at: Motion) -> tuple[float, float]:
+    """Return dx/dt and dy/dt; where the place is not known they are not, either."""
+    if isnan(at.x):
+        return nan, nan
+    return at.v * cos(at.heading), at.v * sin(at.heading)
 
 
 @compiled

@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 
 from diffbot_sim.identification.fitting.coordinates import Space
-from diffbot_sim.identification.fitting.fit import UNIT, Fit, fit_simulation, whitened
+from diffbot_sim.identification.fitting.fit import Fit, fit_simulation, innovations
 from diffbot_sim.identification.fitting.predictor import NO_GAIN
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.minimisation import scale
@@ -30,7 +30,7 @@ def calibrate(space: Space, stretches: tuple[Stretch, ...]) -> Fit:
 
 def simulation_errors(space: Space, stretches: tuple[Stretch, ...], point: Array) -> Array:
     """Return the errors of a simulation in speed [m/s] and turn rate [rad/s], shape (n, 2)."""
-    return whitened(stretches, space.model(point), NO_GAIN, UNIT)
+    return innovations(stretches, space.model(point), NO_GAIN)
 
 
 def simulation_error(fit: Fit) -> float:

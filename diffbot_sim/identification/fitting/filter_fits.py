@@ -11,10 +11,9 @@ from diffbot_sim.identification.fitting.coordinates import Space, point_of
 from diffbot_sim.identification.fitting.fit import (
     EVALUATIONS,
     FIRST_GAINS,
-    UNIT,
+    innovations,
     joint_bounds,
     joint_prior,
-    whitened,
 )
 from diffbot_sim.identification.fitting.predictor import NO_GAIN
 from diffbot_sim.identification.fitting.standing_noise import polynomials
@@ -106,7 +105,7 @@ class Behind:
             u, gains, own, age = np.split(at, ends)
             behind = self.filter(own, float(age[0]))
             undone = [before(stretch, behind) for stretch in self.stretches]
-            missed = whitened(undone, self.space.model(u), gains, UNIT)
+            missed = innovations(undone, self.space.model(u), gains)
             return missed * behind.at_once(self.interval)
 
         at, cost = _fitted(errors, [self._block, _of_filter(numbers), OF_AGE])
@@ -121,7 +120,7 @@ class Behind:
         def errors(at: Array) -> Array:
             u, gains, own = np.split(at, ends)
             past, given = polynomials(own)
-            missed = whitened(self.stretches, self.space.model(u), gains, UNIT)
+            missed = innovations(self.stretches, self.space.model(u), gains)
             parts = np.split(missed, counts)
             return np.concatenate([lfilter(past, given, of, axis=0) for of in parts])
 

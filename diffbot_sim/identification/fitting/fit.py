@@ -20,10 +20,8 @@ GAIN_LIMITS = (np.zeros(6), np.array([0.95, 0.5, 0.999, 0.95, 0.5, 0.999]))
 GAIN_PRIOR = np.array([0.0, 0.0, 0.3, 0.0, 0.0, 0.3])
 # Evaluations in a round, and rounds at most, of fits that go on to the end.
 EVALUATIONS, ROUNDS = 10, 8
-# An error that is as bad as any.
+# An error [m/s, rad/s] that is as bad as any.
 WORST = 1e9
-# The scale of errors that are told in m/s and rad/s.
-UNIT = np.ones(2)
 
 
 @dataclass(frozen=True)
@@ -116,12 +114,20 @@ class Fit:
 
 
 def whitened(stretches: Sequence[Stretch], model: Model, gains: Array, sigma: Array) -> Array:
-    """Return used innovations of several stretches, one after the other, over sigma: (n, 2)."""
-    rows = [predict(model, stretch, gains).innovation[stretch.used] for stretch in stretches]
-    errors, most = np.concatenate(rows), WORST * sigma
+    """Return what innovations are over sigma, shape (n, 2)."""
+    return np.asarray(innovations(stretches, model, gains) / sigma)
+
+
+def innovations(stretches: Sequence[Stretch], model: Model, gains: Array) -> Array:
+    """Return the innovations that count, of several stretches, one after the other: (n, 2)."""
+    errors = np.concatenate(
+        [predict(model, s, gains).innovation.take(s.counted, axis=0) for s in stretches]
+    )
+    if np.abs(errors).max() <= WORST:
+        return errors
     # Parameters far from any robot make numbers that cannot be squared, or none: these only have
     # to be bad.
-    return np.asarray(np.fmax(np.fmin(errors, most), -most) / sigma)
+    return np.asarray(np.fmax(np.fmin(errors, WORST), -WORST))
 
 
 def predictions(fit: Fit, stretches: Sequence[Stretch]) -> list[Prediction]:
@@ -147,7 +153,7 @@ def fit_with_noise_held(
     """Fit the parameters alone, the noise model as it is given."""
 
     def errors(at: Array) -> Array:
-        return whitened(stretches, space.model(at), gains, UNIT)
+        return innovations(stretches, space.model(at), gains)
 
     prior = Prior(space.prior(), space.deviations())
     point, sigma = minimise(errors, start, prior, space.bounds(), evaluations, rounds)
@@ -178,7 +184,7 @@ def fit_prediction(
     size = len(start)
 
     def errors(at: Array) -> Array:
-        return whitened(stretches, space.model(at[:size]), at[size:], UNIT)
+        return innovations(stretches, space.model(at[:size]), at[size:])
 
     begin = np.concatenate([start, gains])
     prior, bounds = joint_prior(space), joint_bounds(space)

@@ -7,8 +7,8 @@ prediction are white. Gains 0 give the free-running simulation back. Heading and
 those measured: errors of speed would add up in them, and with them go slopes and ripples.
 """
 
-from dataclasses import dataclass
-from math import exp
+from dataclasses import dataclass, replace
+from math import exp, nan
 
 import numpy as np
 from numba import types
@@ -36,6 +36,7 @@ from diffbot_sim.physics.simulation import (
     workspace,
 )
 from diffbot_sim.physics.snapshot import keep, snapshot_size
+from diffbot_sim.physics.state import State
 from diffbot_sim.physics.vector import HEADING, roll, twist_of, way_of
 from diffbot_sim.records import Array
 
@@ -73,13 +74,14 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
     start = float(stretch.time[0])
     commands = scheduled(model, stretch.run.commands, start)
     states = initial_states(model, commands, start)
-    out, snapshots = np.zeros((count, 6)), np.empty((count, snapshot_size(states)))
+    innovation, out = np.zeros((count, 2)), np.empty((count, 4))
+    snapshots = np.empty((count, snapshot_size(states)))
     counting = heard(stretch, gains)
     _predict(
         *compose(model.kinds),
         model.pack(),
         states,
-        initial_vector(model, stretch.start),
+        initial_vector(model, _set_out(model, stretch.start)),
         np.ascontiguousarray(commands.time),
         np.ascontiguousarray(commands.force),
         PREDICTION_STEP,
@@ -89,14 +91,23 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
         stretch.heading,
         np.ascontiguousarray(stretch.way),
         np.ascontiguousarray(gains),
-        counting.taken(gains[SPEED] * at_end(stretch)),
+        gains[MEMORY] ** stretch.intervals[:, None],
+        counting.regained,
         counting.weight,
         np.ascontiguousarray(stretch.pushes),
         *workspace(),
+        innovation,
         out,
         snapshots,
     )
-    return Prediction(out[:, 0:2], out[:, 2:4], out[:, 4:6], snapshots)
+    return Prediction(innovation, out[:, 0:2], out[:, 2:4], snapshots)
+
+
+def _set_out(model: Model, start: State) -> State:
+    """Return where a prediction starts: no place where nothing depends on it, which saves time."""
+    if any(effect.is_of_place for effect in model.effects):
+        return start
+    return replace(start, x=nan, y=nan)
 
 
 def at_end(stretch: Stretch) -> Array:
@@ -113,31 +124,29 @@ def heard(stretch: Stretch, gains: Array) -> Unheard:
 
 
 @compiled
-def _disturbed(
-    gains: Array, inertia: float, interval: float, before: float, error: float
-) -> float:
-    """Return the disturbance after an error: what is remembered of it, and what that adds."""
-    return float(gains[2] ** interval * before + gains[1] * inertia / interval * error)
+def _taken(gain: float, regained: float) -> float:
+    """Return the share of an error that is corrected at once: as Unheard.taken."""
+    return 1.0 - (1.0 - gain) * (1.0 - regained)
 
 
 @entry(
     types.void(
         *FUNCTION_TYPES,
         *(ARRAY, ARRAY, ARRAY, ARRAY, MATRIX, types.float64),
-        *(ARRAY, MATRIX, ARRAY, ARRAY, MATRIX, ARRAY, MATRIX, MATRIX, MATRIX),
-        *(INTEGERS, MATRIX, MATRIX, MATRIX),
+        *(ARRAY, MATRIX, ARRAY, ARRAY, MATRIX, ARRAY, MATRIX, MATRIX, MATRIX, MATRIX),
+        *(INTEGERS, MATRIX, MATRIX, MATRIX, MATRIX),
     )
 )
 def _predict(  # type: ignore[no-untyped-def]
     laws, settle, step, params, states, z, command_time, force, max_step, times, twist, means,
-    heading, way, gains, taken, weight, push, modes, work, out, snapshots
+    heading, way, gains, memory, regained, weight, push, modes, work, innovation, out, snapshots
 ) -> None:  # fmt: skip
-    """Fill out: innovation, corrected twist, disturbance; and a snapshot after each sample."""
+    """Fill innovation; out: corrected twist, disturbance; and a snapshot after each sample."""
     dynamics, commands = Dynamics(laws, settle, step), HeldCommands(command_time, force, max_step)
     current = command_at(commands, -1, times[0])
     initial_modes(laws, params, states, z, modes, inputs_of(commands, current, 0.0, 0.0), times[0])
     pushing, turning = 0.0, 0.0
-    of_v, of_omega = gains[:3], gains[3:]
+    end_v, end_omega = 1.0 + means[0], 1.0 + means[1]
     for k, time in enumerate(times):
         if k > 0:
             begin, acting = times[k - 1], (pushing + push[k - 1, 0], turning + push[k - 1, 1])
@@ -147,17 +156,21 @@ def _predict(  # type: ignore[no-untyped-def]
             )
             v, omega = measured(params, means, z, before, interval)
             missed = twist[k, 0] - v, twist[k, 1] - omega
-            by = taken[k, 0] * missed[0], taken[k, 1] * missed[1]
+            by = (
+                _taken(gains[0] * end_v, regained[k, 0]) * missed[0],
+                _taken(gains[3] * end_omega, regained[k, 1]) * missed[1],
+            )
             if min(weight[k, 0], weight[k, 1]) < UNKNOWN:
                 put(z, modes, params[HALF_SEPARATION], by[0], by[1])
             else:
                 correct(z, modes, params[HALF_SEPARATION], by[0], by[1])
-            out[k, 0], out[k, 1] = weight[k, 0] * missed[0], weight[k, 1] * missed[1]
-            error = (1.0 + means[0]) * out[k, 0], (1.0 + means[1]) * out[k, 1]
-            pushing = _disturbed(of_v, params[MASS], interval, pushing, error[0])
-            turning = _disturbed(of_omega, params[INERTIA], interval, turning, error[1])
+            error_v, error_omega = weight[k, 0] * missed[0], weight[k, 1] * missed[1]
+            innovation[k, 0], innovation[k, 1] = error_v, error_omega
+            by_v, by_omega = gains[1] * end_v * error_v, gains[4] * end_omega * error_omega
+            pushing = memory[k, 0] * pushing + params[MASS] / interval * by_v
+            turning = memory[k, 1] * turning + params[INERTIA] / interval * by_omega
             roll(params, z, way[k, 0], way[k, 1], 1.0 - exp(-interval / ROLLED))
         z[HEADING] = heading[k]
-        out[k, 2], out[k, 3] = twist_of(params, z)
-        out[k, 4], out[k, 5] = pushing, turning
+        out[k, 0], out[k, 1] = twist_of(params, z)
+        out[k, 2], out[k, 3] = pushing, turning
         keep(z, modes, states, snapshots[k])

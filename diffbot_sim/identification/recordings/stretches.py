@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,6 +60,16 @@ class Stretch:
     def interval(self) -> float:
         """Median time between samples [s]."""
         return median_interval(self.time)
+
+    @cached_property
+    def intervals(self) -> Array:
+        """Time since the sample before [s], 0 at the first, shape (k,)."""
+        return np.diff(self.time, prepend=self.time[0])
+
+    @cached_property
+    def counted(self) -> NDArray[np.intp]:
+        """Which samples count in fits, by their numbers."""
+        return np.flatnonzero(self.used)
 
     @property
     def pushes(self) -> Array:

@@ -7,11 +7,10 @@ import numpy as np
 from diffbot_sim.identification.fitting.coordinates import Space
 from diffbot_sim.identification.fitting.fit import (
     FIRST_GAINS,
-    UNIT,
     Fit,
     fit_prediction,
     fit_with_noise_held,
-    whitened,
+    innovations,
 )
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
@@ -83,7 +82,7 @@ def refitted(fit: Fit) -> Fit:
     """
 
     def scale(gains: Array) -> float:
-        errors = whitened(fit.stretches, fit.space.model(fit.u), gains, UNIT)
+        errors = innovations(fit.stretches, fit.space.model(fit.u), gains)
         return float(np.prod(scale_of(errors)))
 
     gains = min((fit.gains, FIRST_GAINS), key=scale)

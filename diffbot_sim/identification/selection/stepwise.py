@@ -133,36 +133,26 @@ def tried_on(
 
 
 def forward(
-    base: Fit, kinds: Sequence[type[Effect]], held_out: Sequence[Stretch], progress: Progress
-) -> tuple[Tried, ...]:
-    """Let effects enter, one by one; return the nominal structure and all that it grew to."""
-    path = [tried_on(base, kinds, held_out, progress)]
-    while (ahead := _ahead(path, kinds, held_out, progress)) is not None:
-        path.append(ahead)
-    return tuple(path)
-
-
-def select(
     path: Sequence[Tried],
     kinds: Sequence[type[Effect]],
     held_out: Sequence[Stretch],
     progress: Progress,
-) -> Selection:
-    """Let those effects leave again which the forward search no longer needs at its end.
+) -> Sequence[Tried]:
+    """Let effects enter on top of the last structure of a path, one by one, until none does."""
+    while len(grown := one_more(path, kinds, held_out, progress)) > len(path):
+        path = grown
+    return path
 
-    path: the structures of that, the nominal one first.
-    """
-    fits = [tried.screen.fit for tried in path]
-    last = {trial.kind.name: trial for tried in path for trial in tried.trials}
-    looks = _looks(last.values())
-    final, without, support, left = _prune(fits, len(kinds), looks, held_out, progress)
-    told = [_with_outcome(trial, without, left) for trial in last.values()]
-    trials = sorted(told, key=lambda t: (t.kind.name in without, t.evidence.delta_bic))
-    alternatives = {
-        name: _alternatives(final, name, _screened(rest, path), kinds, progress)
-        for name, rest in without.items()
-    }
-    return Selection(fits[0], final, tuple(reversed(trials)), without, support, alternatives)
+
+def one_more(
+    path: Sequence[Tried],
+    kinds: Sequence[type[Effect]],
+    held_out: Sequence[Stretch],
+    progress: Progress,
+) -> Sequence[Tried]:
+    """Return a path with the structure that has one effect more, if an effect enters."""
+    ahead = _ahead(path, kinds, held_out, progress)
+    return path if ahead is None else (*path, ahead)
 
 
 def _ahead(
@@ -187,6 +177,29 @@ def _ahead(
         if beside.best is not None:
             return beside
     return None
+
+
+def select(
+    path: Sequence[Tried],
+    kinds: Sequence[type[Effect]],
+    held_out: Sequence[Stretch],
+    progress: Progress,
+) -> Selection:
+    """Let those effects leave again which the forward search no longer needs at its end.
+
+    path: the structures of that, the nominal one first.
+    """
+    fits = [tried.screen.fit for tried in path]
+    last = {trial.kind.name: trial for tried in path for trial in tried.trials}
+    looks = _looks(last.values())
+    final, without, support, left = _prune(fits, len(kinds), looks, held_out, progress)
+    told = [_with_outcome(trial, without, left) for trial in last.values()]
+    trials = sorted(told, key=lambda t: (t.kind.name in without, t.evidence.delta_bic))
+    alternatives = {
+        name: _alternatives(final, name, _screened(rest, path), kinds, progress)
+        for name, rest in without.items()
+    }
+    return Selection(fits[0], final, tuple(reversed(trials)), without, support, alternatives)
 
 
 def _looks(trials: Iterable[Trial]) -> dict[str, int]:

@@ -48,12 +48,16 @@ def derivatives(errors: Errors, at: Array, base: Array, bounds: Bounds) -> Array
             if low[index] <= at[index] + step <= high[index]
         )
         slopes = one()
-        size = np.abs(slopes)
-        if not other or size.max() <= JUMP * np.quantile(size, ALL_BUT):
-            return slopes
-        return flatter(slopes, other[0]())
+        return flatter(slopes, other[0]()) if other and _may_jump(slopes) else slopes
 
     return np.stack(each(column, range(len(at))), axis=-1)
+
+
+def _may_jump(slopes: Array) -> bool:
+    """Say whether a few slopes are so much steeper than nearly all that they may be jumps."""
+    size = np.abs(slopes)
+    near = np.count_nonzero(JUMP * size >= size.max())
+    return bool(near < (1.0 - ALL_BUT) * size.size)
 
 
 def difference(errors: Errors, at: Array, base: Array, index: int, step: float) -> Array:

@@ -42,6 +42,7 @@ class Effect:
     is_sought: whether identification looks for it; False for mere descriptions, and for what takes
     the place of other effects in too many drives. Declared, it acts all the same.
     is_of_time: whether it counts time from the start of the run.
+    is_of_place: whether its kernel reads at.x or at.y: predictions tell those to no other.
     guesses: values of the parameters from which fits start.
     shape: names of parameters that mean nothing while the others are neutral (a moment, a period).
     essential: names of parameters that make it what it is: neutral, they leave another effect.
@@ -61,6 +62,7 @@ class Effect:
     dissipative: ClassVar[bool] = False
     is_sought: ClassVar[bool] = True
     is_of_time: ClassVar[bool] = False
+    is_of_place: ClassVar[bool] = False
     guesses: ClassVar[tuple[tuple[Any, ...], ...]]
     shape: ClassVar[tuple[str, ...]] = ()
     essential: ClassVar[tuple[str, ...]] = ()
