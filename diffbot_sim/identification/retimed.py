@@ -40,6 +40,8 @@ from diffbot_sim.identification.selection.trials import OUTDONE
 PAST_OF_COMMANDS = ('past_force', 'force_change')
 # Filters that delay twists alike, within this share of an interval, are one.
 ALIKE = 0.03
+# Fits whose deviances differ by less than this are of one minimum.
+AS_MUCH = 1.0
 
 
 def timed(recordings: Recordings, question: Question) -> Found:
@@ -58,15 +60,36 @@ def timed(recordings: Recordings, question: Question) -> Found:
         found = taken.as_older(older)
         if is_beyond_doubt(older, found.selection.final, begun.recordings, question.kinds):
             return found
-    path = tried_first(begun, question)
+    path, filters = tried_first(begun, question), _Filters()
     first = path[0].best
-    behind = None if first is None else filter_behind(first)
+    behind = None if first is None else filters.behind(first)
     if first is not None and behind is not None:
         path = tried_next(begun, path, question)
         filtered = _filtered_beyond_doubt(first, behind, path[-1].best, begun, question)
         if filtered is not None:
             return filtered
-    return _held_against_older(found_from(begun, path, question), taken, question)
+    return _held_against_older(found_from(begun, path, question), taken, filters, question)
+
+
+class _Filters:
+    """The filter behind each structure: looked for when it is asked for, and once."""
+
+    def __init__(self) -> None:
+        self._told = list[tuple[Fit, Likelier | None]]()
+
+    def behind(self, fit: Fit) -> Likelier | None:
+        """Return the filter that explains more than an effect that is late, if there is one."""
+        told = next((told for told in self._told if _alike(told[0], fit)), None)
+        if told is None:
+            told = fit, filter_behind(fit)
+            self._told.append(told)
+        return told[1]
+
+
+def _alike(one: Fit, other: Fit) -> bool:
+    """Say whether two fits of the same runs are of one structure, and explain as much."""
+    fall = one.deviance(other.sigma) - other.deviance(other.sigma)
+    return one.space == other.space and abs(fall) < AS_MUCH
 
 
 class _Taken:
@@ -85,11 +108,13 @@ class _Taken:
         return self._found[older]
 
 
-def _held_against_older(found: Found, taken: _Taken, question: Question) -> Found:
+def _held_against_older(
+    found: Found, taken: _Taken, filters: _Filters, question: Question
+) -> Found:
     """Hold what was found against searches in twists that are older, or went through a filter."""
     # Doubt may have withdrawn a name for what late twists left beside it.
     first = found.undoubted.final
-    ages, behind = Ages(first, found.recordings), filter_behind(first)
+    ages, behind = Ages(first, found.recordings), filters.behind(first)
     unexplained = 0.0 if found.unexplained is None else found.unexplained.worth
     for older in ages.likely if found.says_something else ():
         if behind is not None and _outdoes(behind, first, ages, older):

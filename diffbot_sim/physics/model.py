@@ -1,6 +1,7 @@
 """The model: robot, wheel friction and effects, frozen."""
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import prod
 
 import numpy as np
@@ -36,12 +37,12 @@ class Model:
         """Return a model that lacks the effect of this name."""
         return replace(self, effects=tuple(e for e in self.effects if e.name != name))
 
-    @property
+    @cached_property
     def kinds(self) -> tuple[type[Effect], ...]:
         """The laws of its effects, in order of evaluation."""
         return tuple(type(effect) for effect in self.effects)
 
-    @property
+    @cached_property
     def half_separation(self) -> float:
         """Distance b from the middle to a wheel [m], as effects let it act."""
         return self.robot.half_separation * prod(effect.track for effect in self.effects)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Container, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import exp, log
 from typing import Any
 
@@ -52,7 +53,7 @@ class Space:
     declared: Model
     kinds: tuple[type[Effect], ...]
 
-    @property
+    @cached_property
     def nominal(self) -> tuple[Coordinate, ...]:
         """Coordinates of the nominal parameters."""
         robot = {spec.name: spec for spec in specs(self.declared.robot)}
@@ -67,12 +68,12 @@ class Space:
             result.append(make(friction[name], declared))
         return tuple(result)
 
-    @property
+    @cached_property
     def of_effects(self) -> tuple[Coordinate, ...]:
         """Coordinates of the effects' parameters, neutral at their prior."""
         return tuple(_of_effect(kind, spec) for kind in self.kinds for spec in kind.specs())
 
-    @property
+    @cached_property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """All coordinates: nominal, then effects."""
         return self.nominal + self.of_effects

@@ -18,6 +18,8 @@ JUMP, ALL_BUT = 30.0, 0.99
 # A scale that changes by less than this share between two rounds has settled. Where errors jump a
 # round may end at no minimum: if the cost falls by less than this there is none lower near.
 SETTLED, LOWER = 0.002, 0.03
+# A round ends where its cost falls by less than this share.
+SLIGHTEST = 1e-5
 # No odometry tells speeds [m/s] and yaw rates [rad/s] more finely, nor are integrators of others
 # closer: what is smaller is no error.
 FINEST = 1e-4
@@ -132,6 +134,50 @@ class _Remembered:
             self._linear_at = at.copy()
         return self._slopes
 
+    def latest(self) -> Array:
+        """Return the derivatives where they were asked for last."""
+        return self._slopes
+
+    def hardly_moved(self, at: Array) -> None:
+        """Take the latest derivatives for those at a point, too."""
+        self._linear_at = at.copy()
+
+
+class _Descent:
+    """What a minimisation asks for, with the scale held.
+
+    It wants derivatives where it ends, too. No step follows there, so that is left to whoever sets
+    out from there; and where it has settled they are those from before, as far as anyone can tell.
+    """
+
+    def __init__(self, known: _Remembered, prior: Prior, sigma: Array, evaluations: int) -> None:
+        self._known, self._prior, self._sigma = known, prior, sigma
+        self._left, self._lowest = evaluations, np.inf
+
+    def residuals(self, at: Array) -> Array:
+        """Return whitened errors, and behind them how far coordinates are from the prior."""
+        self._left -= 1
+        return self._residuals(at)
+
+    def cost(self, at: Array) -> float:
+        """Return twice the robust cost."""
+        return float(huber(self._residuals(at)).sum())
+
+    def jacobian(self, at: Array) -> Array:
+        """Return the derivatives of the residuals."""
+        before, self._lowest = self._lowest, self.cost(at)
+        if before - self._lowest < SLIGHTEST * before:
+            self._known.hardly_moved(at)
+        ends = self._left == 0 and before < np.inf
+        slopes = self._known.latest() if ends else self._known.derivatives(at)
+        whitened = (slopes / self._sigma[:, None]).reshape(-1, len(at))
+        return np.vstack([whitened, np.diag(1.0 / self._prior.deviation)])
+
+    def _residuals(self, at: Array) -> Array:
+        whitened = self._known.errors(at) / self._sigma
+        away = (at - self._prior.centre) / self._prior.deviation
+        return np.concatenate([whitened.ravel(), away])
+
 
 def _least_squares(
     known: _Remembered,
@@ -142,27 +188,19 @@ def _least_squares(
     evaluations: int,
 ) -> tuple[Array, bool]:
     """Minimise robust whitened errors; return the point, and whether nothing near is lower."""
-
-    def cost(at: Array) -> Array:
-        whitened = known.errors(at) / sigma
-        return np.concatenate([whitened.ravel(), (at - prior.centre) / prior.deviation])
-
-    def jacobian(at: Array) -> Array:
-        whitened = known.derivatives(at) / sigma[:, None]
-        return np.vstack([whitened.reshape(-1, len(at)), np.diag(1.0 / prior.deviation)])
-
-    first = huber(cost(start)).sum()
+    descent = _Descent(known, prior, sigma, evaluations)
+    first = descent.cost(start)
     result = least_squares(
-        cost,
+        descent.residuals,
         start,
-        jac=jacobian,
+        jac=descent.jacobian,
         bounds=bounds,
         loss='huber',
         f_scale=HUBER,
         x_scale='jac',
         max_nfev=evaluations,
-        ftol=1e-5,
+        ftol=SLIGHTEST,
         xtol=1e-6,
     )
-    lowest = result.status > 0 or first - huber(result.fun).sum() < LOWER
+    lowest = result.status > 0 or first - descent.cost(result.x) < LOWER
     return np.asarray(result.x), bool(lowest)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
 
 from diffbot_sim.parameters import Spec, specs
@@ -74,7 +75,7 @@ class Effect:
         """List the parameters in order."""
         return specs(cls)
 
-    @property
+    @cached_property
     def values(self) -> tuple[float, ...]:
         """The parameter values in the order of the fields; a choice as its place."""
         return tuple(_number(spec, getattr(self, spec.name)) for spec in self.specs())
