@@ -1,6 +1,6 @@
 """Twists as odometry tells them: of the moment, or means since the sample before."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -8,8 +8,11 @@ import pytest
 from diffbot_sim.identification.fitting.predictor import NO_GAIN, predict
 from diffbot_sim.identification.recordings.measurement import simulated
 from diffbot_sim.identification.recordings.stretches import Stretch, thin, whole
+from diffbot_sim.physics.compiled import compiled
+from diffbot_sim.physics.effects.quadratic_drag import QuadraticDrag
 from diffbot_sim.physics.model import Model
 from diffbot_sim.physics.simulation import simulate
+from diffbot_sim.physics.stages import pushed
 from diffbot_sim.physics.state import State
 from diffbot_sim.records import Commands, Odometry, Run
 
@@ -32,6 +35,28 @@ def counted(time, means) -> Run:
 def from_rest(run: Run) -> Stretch:
     (stretch,) = whole([run])
     return replace(stretch, start=State())
+
+
+@compiled
+def in_mud(at, load, coefficient):
+    return pushed(load, -coefficient * at.x**2 * at.v, 0.0)
+
+
+@dataclass(frozen=True)
+class Mud(QuadraticDrag):
+    """A drag that is the stronger the farther away the robot is."""
+
+    name = 'mud'
+    kernel = in_mud
+    is_of_place = True
+
+
+def test_what_depends_on_the_place_is_predicted_where_the_robot_is() -> None:
+    muddy, time = Model(effects=(Mud(2.0),)), np.arange(0.0, 20.0, 0.05)
+    moved = simulate(muddy, COMMANDS, time)
+    stretch = from_rest(Run('muddy', COMMANDS, Odometry(time, moved.twist, moved.pose)))
+    assert np.abs(simulate(Model(), COMMANDS, time).twist - moved.twist).max() > 0.1
+    assert np.abs(predict(muddy, stretch, NO_GAIN).innovation).max() < 1e-5
 
 
 def test_at_a_single_stamp_the_mean_is_the_speed_that_it_starts_with() -> None:

@@ -3,7 +3,12 @@
 import numpy as np
 import pytest
 
-from diffbot_sim.identification.statistics.minimisation import Prior, derivatives, minimise
+from diffbot_sim.identification.statistics.minimisation import (
+    DIFFERENCE,
+    Prior,
+    derivatives,
+    minimise,
+)
 
 FAR = (np.full(2, -9.0), np.full(2, 9.0))
 VAGUE = Prior(np.zeros(2), np.full(2, 1e6))
@@ -39,6 +44,18 @@ def test_no_point_is_asked_for_twice() -> None:
 
     minimise(errors, np.array([-1.2, 1.0]), VAGUE, FAR, evaluations=20, rounds=3)
     assert len(set(asked)) == len(asked)
+
+
+def test_derivatives_where_a_fit_ends_are_not_asked_for() -> None:
+    asked = []
+
+    def errors(at):
+        asked.append(at)
+        return valley(at)
+
+    point, _ = minimise(errors, np.array([-1.2, 1.0]), VAGUE, FAR, evaluations=20, rounds=2)
+    beside = [at for at in asked if 0.0 < np.abs(at - point).max() < 2.0 * DIFFERENCE]
+    assert not beside
 
 
 @pytest.mark.parametrize('side', [-1.0, 1.0])
