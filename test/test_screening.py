@@ -24,10 +24,10 @@ def test_first_look_promises_most_of_what_a_fit_finds_on_a_rough_floor(seed: int
     (stretch,) = whole([rehearse(fading, forces, Surroundings(roughness=0.3), seed)])
     small, large = Space(Model(), ()), Space(Model(), (ActuatorFade,))
     without = fit_prediction(small, (stretch,), small.prior(), FIRST_GAINS)
-    score = Screen(without).score(ActuatorFade)
-    found = fit_prediction(large, (stretch,), score.starts[0], without.gains)
+    screen = Screen(without)
+    found = fit_prediction(large, (stretch,), screen.starts(ActuatorFade)[0], without.gains)
     worth = without.deviance(found.sigma) - found.deviance(found.sigma)
-    assert 0.7 * worth < score.ratio < 1.3 * worth
+    assert 0.7 * worth < screen.score(ActuatorFade).ratio < 1.3 * worth
 
 
 @pytest.mark.parametrize('share', [0.0, 1.0])

@@ -69,7 +69,7 @@ def test_limit_is_one_of_voltage_where_it_does_much_by_falling_with_speed(
     limited = Model(effects=(acts,))
     without, _ = fitted(rehearse(limited, random_forces(3, 60.0, -9.0, 11.0), SMOOTH, 3))
     screen = Screen(without)
-    fit = complete(approach(screen, VoltageLimit, screen.score(VoltageLimit)))
+    fit = complete(approach(screen, VoltageLimit))
     _, falls, _ = fit.space.places('voltage_limit')
     much = ESSENTIAL_SHARE * likelihood_ratio(without, fit)
     assert (rise_without(fit, [falls]) > much) == is_of_voltage

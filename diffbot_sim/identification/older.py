@@ -206,8 +206,7 @@ def _late_as_stamped(final: Fit, recordings: Recordings, kinds: Sequence[type[Ef
     fit = refitted(on_recordings(final, recordings))
     late = [k for k in kinds if k.name in LATE_EFFECTS and k not in fit.space.kinds]
     screen = Screen(fit)
-    scores = [(kind, screen.score(kind)) for kind in late]
-    fits = [complete(approach(screen, kind, score)) for kind, score in scores if score.starts]
+    fits = [complete(approach(screen, kind)) for kind in late]
     return max(fits, key=partial(delta_bic, fit), default=fit)
 
 

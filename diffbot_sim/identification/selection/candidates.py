@@ -14,7 +14,7 @@ from diffbot_sim.identification.fitting.fit import (
 )
 from diffbot_sim.identification.recordings.recordings import Recordings
 from diffbot_sim.identification.recordings.start import restarted
-from diffbot_sim.identification.selection.screening import Score, Screen
+from diffbot_sim.identification.selection.screening import Screen
 from diffbot_sim.identification.statistics.parallel import side_by_side
 from diffbot_sim.identification.statistics.robust import scale_of
 from diffbot_sim.physics.effects import Effect
@@ -24,7 +24,7 @@ from diffbot_sim.records import Array
 SHORT = 4
 
 
-def approach(screen: Screen, kind: type[Effect], score: Score) -> Fit:
+def approach(screen: Screen, kind: type[Effect]) -> Fit:
     """Fit a structure with one effect more for a short while, the noise model held.
 
     Each start has a local minimum of its own; the best is returned.
@@ -33,7 +33,7 @@ def approach(screen: Screen, kind: type[Effect], score: Score) -> Fit:
     space = Space(base.space.declared, (*base.space.kinds, kind))
     tried = [
         fit_with_noise_held(space, base.stretches, start, base.gains, SHORT, rounds=1)
-        for start in score.starts
+        for start in screen.starts(kind)
     ]
     return min(tried, key=lambda fit: fit.deviance(base.sigma))
 

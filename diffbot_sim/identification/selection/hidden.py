@@ -40,7 +40,7 @@ def hidden(screen: Screen, kinds: Sequence[type[Effect]]) -> list[Fit]:
     found = [pair for two in combinations(seen, 2) if (pair := pairs.of(*two)) is not None]
     promising = sorted(found, key=lambda pair: -pair.worth)[:MOST_FITTED]
     leading = dict.fromkeys(pair.kinds[0] for pair in promising)
-    near = {kind: Screen(approach(screen, kind, scores[kind])) for kind in leading}
+    near = {kind: Screen(approach(screen, kind)) for kind in leading}
     kept = [pair for pair in promising if _is_worth_its_price(screen, near, pair)]
     return [near[kind].fit for kind in dict.fromkeys(pair.kinds[0] for pair in kept)]
 
@@ -51,7 +51,7 @@ def _is_worth_its_price(screen: Screen, near: Mapping[type[Effect], Screen], pai
     near: screens of the fits that approached the first one of each pair.
     """
     base, (first, second) = screen.fit, pair.kinds
-    both = approach(near[first], second, near[first].score(second))
+    both = approach(near[first], second)
     fall = base.deviance(base.sigma) - both.deviance(base.sigma)
     return fall > screen.price(first) + screen.price(second)
 

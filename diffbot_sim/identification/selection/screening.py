@@ -39,15 +39,15 @@ class Score:
     """First-order worth of an effect.
 
     ratio: estimate of the likelihood ratio; p_value: its chance under no effect, counting the
-    shapes tried; starts: points (u of the larger space) at which full fits should begin, the best
-    first; seen: whether the drive shows the effect at all once the free parameters have adapted;
-    shapes: how many were tried; directions: what it does to the errors in that which explains
-    most, beyond what the free parameters could, shape (2 n, q).
+    shapes tried; points: of what promises most, the best first, those (u of the larger space) at
+    one of which a full fit may begin; seen: whether the drive shows the effect at all once the
+    free parameters have adapted; shapes: how many were tried; directions: what it does to the
+    errors in that which explains most, beyond what the free parameters could, shape (2 n, q).
     """
 
     ratio: float
     p_value: float
-    starts: tuple[Array, ...]
+    points: tuple[tuple[Array, ...], ...]
     seen: bool
     shapes: int
     directions: Array
@@ -61,6 +61,7 @@ class Screen:
         self._free = Projection(fit.slopes)
         self._errors = self.project(influence(fit.whitened))
         self._scores = dict[type[Effect], Score]()
+        self._starts = dict[type[Effect], tuple[Array, ...]]()
 
     @property
     def residual(self) -> Array:
@@ -99,8 +100,22 @@ class Screen:
             self._scores[kind] = self._scored(kind)
         return self._scores[kind]
 
+    def starts(self, kind: type[Effect]) -> tuple[Array, ...]:
+        """Return points, u of a space with the effect, at which full fits should begin.
+
+        The one that promises most, and of the next ones that with the least error.
+        """
+        if kind not in self._starts:
+            first, *others = each(partial(self._least, self._with(kind)), self.score(kind).points)
+            others.sort(key=itemgetter(0))
+            self._starts[kind] = tuple(point for _, point in (first, *others[: FOLLOWED - 1]))
+        return self._starts[kind]
+
+    def _with(self, kind: type[Effect]) -> Space:
+        return Space(self.fit.space.declared, (*self.fit.space.kinds, kind))
+
     def _scored(self, kind: type[Effect]) -> Score:
-        space = Space(self.fit.space.declared, (*self.fit.space.kinds, kind))
+        space = self._with(kind)
         starts = [point_of(kind, values) for values in kind.starts(self.drive)]
         slopes_of = self._slopes_of(space, kind)
         if kind.shape:
@@ -109,12 +124,12 @@ class Screen:
             neutral = point_of(kind, [spec.default for spec in kind.specs()])
             options = each(partial(self._as_it_stands, space), starts)
             options.append(self._amounts(space, kind, slopes_of, neutral))
-        best = max(options, key=lambda option: option.fall)
-        shapes = len(starts) if kind.shape else 1
+        promising = sorted(options, key=lambda option: -option.fall)[:COMPARED]
+        best, shapes = promising[0], len(starts) if kind.shape else 1
         return Score(
             best.fall,
             chance_of_fall(best.fall, len(kind.specs()), shapes),
-            self._best(space, options),
+            tuple(option.points for option in promising),
             any(option.seen for option in options),
             shapes,
             best.directions,
@@ -191,18 +206,11 @@ class Screen:
         slopes = [slope(errors, point, base, index, AMOUNT, low[index]) for index in turned]
         return np.stack(slopes, axis=-1)
 
-    def _best(self, space: Space, options: Sequence['_Option']) -> tuple[Array, ...]:
-        """Return the point that promises most, and of the next ones that with the least error."""
-        promising = sorted(options, key=lambda option: -option.fall)[:COMPARED]
-        first, *others = each(partial(self._least, space), promising)
-        others.sort(key=itemgetter(0))
-        return tuple(point for _, point in (first, *others[: FOLLOWED - 1]))
-
-    def _least(self, space: Space, option: '_Option') -> tuple[float, Array]:
-        """Return the least error of an option's points, and the point that has it."""
-        losses = [self._loss(space, point) for point in option.points]
+    def _least(self, space: Space, points: Sequence[Array]) -> tuple[float, Array]:
+        """Return the least error of some points, and the point that has it."""
+        losses = [self._loss(space, point) for point in points]
         best = int(np.argmin(losses))
-        return losses[best], option.points[best]
+        return losses[best], points[best]
 
     def _loss(self, space: Space, point: Array) -> float:
         """Return the squared error at a point, no sample counting beyond three deviations."""

@@ -293,6 +293,6 @@ def _alternatives(
         if not score.seen or score.ratio < RIVAL_SHARE * worth:
             continue
         progress(f'trying {kind.name} as an alternative')
-        if comes_up(approach(screen, kind, score), final):
+        if comes_up(approach(screen, kind), final):
             found.append(kind.name)
     return tuple(found)

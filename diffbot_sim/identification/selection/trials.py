@@ -167,9 +167,10 @@ def _approached(
     base = screen.fit
 
     def approached(kind: type[Effect]) -> _Approach:
-        score = promising[kind]
-        near = approach(screen, kind, score)
-        return _Approach(kind, score, near, base.deviance(base.sigma) - near.deviance(base.sigma))
+        near = approach(screen, kind)
+        return _Approach(
+            kind, promising[kind], near, base.deviance(base.sigma) - near.deviance(base.sigma)
+        )
 
     return side_by_side(approached, promising)
 

@@ -138,16 +138,12 @@ class _Remembered:
         """Return the derivatives where they were asked for last."""
         return self._slopes
 
-    def hardly_moved(self, at: Array) -> None:
-        """Take the latest derivatives for those at a point, too."""
-        self._linear_at = at.copy()
-
 
 class _Descent:
     """What a minimisation asks for, with the scale held.
 
-    It wants derivatives where it ends, too. No step follows there, so that is left to whoever sets
-    out from there; and where it has settled they are those from before, as far as anyone can tell.
+    It asks for derivatives where it ends, too. No step follows there, so that it is told the
+    latest ones: whoever sets out from there anew asks again.
     """
 
     def __init__(self, known: _Remembered, prior: Prior, sigma: Array, evaluations: int) -> None:
@@ -166,9 +162,7 @@ class _Descent:
     def jacobian(self, at: Array) -> Array:
         """Return the derivatives of the residuals."""
         before, self._lowest = self._lowest, self.cost(at)
-        if before - self._lowest < SLIGHTEST * before:
-            self._known.hardly_moved(at)
-        ends = self._left == 0 and before < np.inf
+        ends = before < np.inf and (self._left == 0 or before - self._lowest < SLIGHTEST * before)
         slopes = self._known.latest() if ends else self._known.derivatives(at)
         whitened = (slopes / self._sigma[:, None]).reshape(-1, len(at))
         return np.vstack([whitened, np.diag(1.0 / self._prior.deviation)])
