@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from math import cos, sin
 
+import pytest
 from fits import left_by
 from peer_drives import DRIVES
 from peer_recording import Recording, record
@@ -15,6 +16,7 @@ from diffbot_sim.parameters import parameter
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.compiled import compiled
 from diffbot_sim.physics.effects import Effect
+from diffbot_sim.physics.effects.slope import Slope
 from diffbot_sim.physics.stages import Load, Motion, Stage, pushed
 
 
@@ -52,6 +54,19 @@ def test_hills_are_unexplained_and_known_by_where_they_are() -> None:
     assert result.effects == ()
     assert result.unexplained is not None
     assert (result.unexplained.axis, result.unexplained.variable) == ('v', 'hill_x')
+
+
+@pytest.mark.parametrize(
+    ('wind', 'grade', 'names'), [(1.5, 0.0, []), (0.3, 0.03, ['slope'])], ids=['wind', 'slope']
+)
+def test_pull_that_changes_is_no_slope(wind: float, grade: float, names: list[str]) -> None:
+    make, how = MAKES['medium'], Recording(duration=60.0)
+    blown = make.plant._replace(wind=wind, wind_turn=-0.02, rise_x=grade)
+    drive = DRIVES['forces'](make, 0, how.duration, how.rate)
+    result = identify([record(blown, drive, how, 0)], exact(make.plant), kinds=[Slope])
+    assert [effect.name for effect in result.effects] == names
+    assert result.unexplained is not None
+    assert result.unexplained.variable == 'pull'
 
 
 def test_ground_in_short_waves_is_known_by_where_they_are() -> None:

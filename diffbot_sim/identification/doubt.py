@@ -42,6 +42,8 @@ LEFT_SHARE, SAME_SHARE = 0.1, 0.15
 # No effect lowered the BIC by more on any of 200 clean robots: a name that keeps more beside what
 # is left is no chance.
 BEYOND_CHANCE = 25.0
+# A pull that is fixed in the world is a slope as far as it stays, and none if it changes more.
+CHANGING = {'slope': 'pull'}
 # Friction near rest is allowed for in about its form: of what that explains, as much again as this
 # share may be left.
 ALLOWED_SHARE = 0.5
@@ -110,9 +112,17 @@ def doubt(seen: Seen, look: Look = Seen) -> Doubted:
     if not name:
         return Doubted(selection, left, seen.near_rest)
     doubted = doubt(look(selection.withdrawn(name, held_out, OUTDONE), held_out), look)
-    # There is structure, if only what the name went for; a limit says more than a part of it.
-    told = left if left and left.variable == LIMIT else doubted.unexplained or left
+    # There is structure, if only what the name went for.
+    told = left if left and _says_more(left, name) else doubted.unexplained or left
     return doubted._replace(unexplained=told)
+
+
+def _says_more(left: Structure, name: str) -> bool:
+    """Say whether a structure tells more than what is left without the name that went for it.
+
+    That would be a part of a limit, or of a pull that changes.
+    """
+    return left.variable in (LIMIT, CHANGING.get(name))
 
 
 def _needless_name(seen: Seen) -> Objection | None:
@@ -163,6 +173,9 @@ def _left_over(seen: Seen) -> Objection:
         whole = _free_form_of(rest, final, left)
         if whole is not None:
             return kind.name, describe(whole, rest)
+        changing = left.basis.variable == CHANGING.get(kind.name)
+        if changing and WORTHIER * selection.support[kind.name].delta_bic < worth_of(left, final):
+            return kind.name, describe(left, final)
     refused = suspected(selection, seen.allowed) if selection.support else None
     name = doubted_beside(refused.worth, selection) if refused else ''
     return name, _told(found[0], final)
