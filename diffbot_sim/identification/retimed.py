@@ -62,10 +62,9 @@ def timed(recordings: Recordings, question: Question) -> Found:
             return found
     path, filters = tried_first(begun, question), _Filters()
     first = path[0].best
-    behind = None if first is None else filters.behind(first)
-    if first is not None and behind is not None:
+    if first is not None and filters.behind(first) is not None:
         path = tried_next(begun, path, question)
-        filtered = _filtered_beyond_doubt(first, behind, path[-1].best, begun, question)
+        filtered = _filtered_beyond_doubt(first, path[-1].best, filters, begun, question)
         if filtered is not None:
             return filtered
     return _held_against_older(found_from(begun, path, question), taken, filters, question)
@@ -136,7 +135,7 @@ def _outdoes(behind: Likelier, fit: Fit, ages: Ages, older: Older) -> bool:
 
 
 def _filtered_beyond_doubt(
-    first: Fit, behind: Likelier, second: Fit | None, begun: Begun, question: Question
+    first: Fit, second: Fit | None, filters: _Filters, begun: Begun, question: Question
 ) -> Found | None:
     """Search where the filter that the first effect to enter stands for is undone.
 
@@ -144,7 +143,8 @@ def _filtered_beyond_doubt(
     a late robot may look like that, means explain less, nothing is unexplained then, and the
     filter stands up to what is found.
     """
-    if second is not None and filter_behind(second) is None:
+    behind = filters.behind(first)
+    if behind is None or (second is not None and filters.behind(second) is None):
         return None
     ages = Ages(first, begun.recordings)
     if not all(_outdoes(behind, first, ages, older) for older in ages.likely):

@@ -145,7 +145,7 @@ def _likelier(
     left: what is fitted once it is undone; within: the shortest and longest time constant [s].
     """
     looks = (_Look(left, age) for age in AGES)
-    return [look.best(*within) for look in looks if min(map(look.cost, tried)) <= most]
+    return [look.best(*within) for look in looks if any(look.cost(at) <= most for at in tried)]
 
 
 def _allowed(stretches: Sequence[Stretch], near: float) -> float:
