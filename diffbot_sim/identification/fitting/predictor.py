@@ -16,7 +16,7 @@ from numba import types
 from diffbot_sim.identification.recordings.start import PREDICTION_STEP
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.recordings.unheard import Unheard, all_heard
-from diffbot_sim.physics.compiled import compiled, entry
+from diffbot_sim.physics.compiled import entry
 from diffbot_sim.physics.composition import compose
 from diffbot_sim.physics.correction import correct, put
 from diffbot_sim.physics.dynamics import ARRAY, FUNCTION_TYPES, INTEGERS, MATRIX, Dynamics
@@ -92,7 +92,7 @@ def predict(model: Model, stretch: Stretch, gains: Array) -> Prediction:
         np.ascontiguousarray(stretch.way),
         np.ascontiguousarray(gains),
         gains[MEMORY] ** stretch.intervals[:, None],
-        counting.regained,
+        counting.taken(gains[SPEED] * at_end(stretch)),
         counting.weight,
         np.ascontiguousarray(stretch.pushes),
         *workspace(),
@@ -123,12 +123,6 @@ def heard(stretch: Stretch, gains: Array) -> Unheard:
     return stretch.unheard if np.any(gains) else all_heard(len(stretch.time))
 
 
-@compiled
-def _taken(gain: float, regained: float) -> float:
-    """Return the share of an error that is corrected at once: as Unheard.taken."""
-    return 1.0 - (1.0 - gain) * (1.0 - regained)
-
-
 @entry(
     types.void(
         *FUNCTION_TYPES,
@@ -139,7 +133,7 @@ def _taken(gain: float, regained: float) -> float:
 )
 def _predict(  # type: ignore[no-untyped-def]
     laws, settle, step, params, states, z, command_time, force, max_step, times, twist, means,
-    heading, way, gains, memory, regained, weight, push, modes, work, innovation, out, snapshots
+    heading, way, gains, memory, taken, weight, push, modes, work, innovation, out, snapshots
 ) -> None:  # fmt: skip
     """Fill innovation; out: corrected twist, disturbance; and a snapshot after each sample."""
     dynamics, commands = Dynamics(laws, settle, step), HeldCommands(command_time, force, max_step)
@@ -156,10 +150,7 @@ def _predict(  # type: ignore[no-untyped-def]
             )
             v, omega = measured(params, means, z, before, interval)
             missed = twist[k, 0] - v, twist[k, 1] - omega
-            by = (
-                _taken(gains[0] * end_v, regained[k, 0]) * missed[0],
-                _taken(gains[3] * end_omega, regained[k, 1]) * missed[1],
-            )
+            by = taken[k, 0] * missed[0], taken[k, 1] * missed[1]
             if min(weight[k, 0], weight[k, 1]) < UNKNOWN:
                 put(z, modes, params[HALF_SEPARATION], by[0], by[1])
             else:

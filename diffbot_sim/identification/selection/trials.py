@@ -168,9 +168,8 @@ def _approached(
 
     def approached(kind: type[Effect]) -> _Approach:
         near = approach(screen, kind)
-        return _Approach(
-            kind, promising[kind], near, base.deviance(base.sigma) - near.deviance(base.sigma)
-        )
+        fall = base.deviance(base.sigma) - near.deviance(base.sigma)
+        return _Approach(kind, promising[kind], near, fall)
 
     return side_by_side(approached, promising)
 

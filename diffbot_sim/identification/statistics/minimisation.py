@@ -196,5 +196,5 @@ def _least_squares(
         ftol=SLIGHTEST,
         xtol=1e-6,
     )
-    lowest = result.status > 0 or first - descent.cost(result.x) < LOWER
+    lowest = result.status > 0 or first - huber(result.fun).sum() < LOWER
     return np.asarray(result.x), bool(lowest)
