@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from fits import ROUGH, acted_otherwise, fitted
+from fits import ROUGH, acted_otherwise, fitted, leaving
 from rehearsal import Surroundings
 
 from diffbot_sim.identification import identify
-from diffbot_sim.identification.free_forms.bursts import bursts
+from diffbot_sim.identification.free_forms.bursts import bursts, bursts_still
 from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.slope import Slope
@@ -53,3 +53,11 @@ def test_bursts_are_told_over_time_and_as_what_they_are_like() -> None:
     along = {'v': (1.0, 1.0), 'omega': (1.0, -1.0)}[left.axis]
     lacking = np.interp(left.knots, TIME, (GIVEN - FORCES) @ along)
     assert np.corrcoef(left.force, lacking)[0, 1] > 0.5
+
+
+def test_bursts_are_told_of_older_twists_where_these_leave_errors_far_out() -> None:
+    as_stamped, _ = fitted(acted_otherwise(DRIVE, GIVEN))
+    noise = RANDOM.normal(size=(3000, 2))
+    banged = noise + 10.0 * (RANDOM.random((3000, 1)) < 0.01)
+    assert bursts_still(as_stamped, leaving(noise)) is None
+    assert bursts_still(as_stamped, leaving(banged)) is not None
