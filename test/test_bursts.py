@@ -6,6 +6,7 @@ from fits import ROUGH, acted_otherwise, fitted, leaving
 from rehearsal import Surroundings
 
 from diffbot_sim.identification import identify
+from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.free_forms.bursts import bursts, bursts_still
 from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.physics import Model
@@ -19,6 +20,12 @@ FORCES = RANDOM.choice([-10.0, -7.0, 7.0, 10.0], size=(100, 2))[(TIME / 0.6).ast
 DRIVE = Commands(TIME, FORCES)
 CUT_OUT = RANDOM.random(120)[(TIME / 0.5).astype(int)] < 0.1
 GIVEN = FORCES * ~CUT_OUT[:, None]
+
+
+@pytest.fixture(scope='module')
+def cut_out() -> Fit:
+    """Return a fit to a drive that cuts out."""
+    return fitted(acted_otherwise(DRIVE, GIVEN))[0]
 
 
 @pytest.mark.parametrize('roughness', [0.0, 0.3, 0.9])
@@ -46,8 +53,8 @@ def test_brake_that_lets_go_late_is_not_allowed_for_as_friction() -> None:
     assert not np.any(eased_fit.stretches[0].pushes)
 
 
-def test_bursts_are_told_over_time_and_as_what_they_are_like() -> None:
-    left = bursts(fitted(acted_otherwise(DRIVE, GIVEN))[0])
+def test_bursts_are_told_over_time_and_as_what_they_are_like(cut_out: Fit) -> None:
+    left = bursts(cut_out)
     assert left is not None
     assert 'as if the drives gave less' in left.description
     along = {'v': (1.0, 1.0), 'omega': (1.0, -1.0)}[left.axis]
@@ -55,9 +62,8 @@ def test_bursts_are_told_over_time_and_as_what_they_are_like() -> None:
     assert np.corrcoef(left.force, lacking)[0, 1] > 0.5
 
 
-def test_bursts_are_told_of_older_twists_where_these_leave_errors_far_out() -> None:
-    as_stamped, _ = fitted(acted_otherwise(DRIVE, GIVEN))
+def test_bursts_are_told_of_older_twists_where_these_leave_errors_far_out(cut_out: Fit) -> None:
     noise = RANDOM.normal(size=(3000, 2))
     banged = noise + 10.0 * (RANDOM.random((3000, 1)) < 0.01)
-    assert bursts_still(as_stamped, leaving(noise)) is None
-    assert bursts_still(as_stamped, leaving(banged)) is not None
+    assert bursts_still(cut_out, leaving(noise)) is None
+    assert bursts_still(cut_out, leaving(banged)) is not None

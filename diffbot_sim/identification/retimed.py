@@ -122,7 +122,7 @@ def _held_against_older(
         other = taken.as_older(older)
         ends = (other.undoubted.final, ages.timely(older))
         if any(is_taken(older, first, end, unexplained) for end in ends):
-            return other if other.unexplained else _bursting_still(other, found)
+            return _bursting_still(other, found)
         lead = max(lead_of_means(older, first, end, unexplained) for end in ends)
         if lead > 0.0:
             return _taken_as_led(other.recordings, lead, question)
@@ -132,7 +132,9 @@ def _held_against_older(
 
 def _bursting_still(other: Found, found: Found) -> Found:
     """Leave bursts unexplained that no age of the twists accounts for."""
-    left = found.unexplained and bursts_still(found.selection.final, other.selection.final)
+    if found.unexplained is None or other.unexplained is not None:
+        return other
+    left = bursts_still(found.selection.final, other.selection.final)
     return replace(other, unexplained=left)
 
 

@@ -45,11 +45,10 @@ def bursts(fit: Fit) -> Structure | None:
 def bursts_still(as_stamped: Fit, older: Fit) -> Structure | None:
     """Return the bursts of twists as they are stamped, if older ones leave errors like them, too.
 
-    Of what is told late a noise model follows less. A model of which twists just are older misses
-    them at every change of the forces, and comes close to all once they are taken so.
+    Of what is told late a noise model follows less, so that these seem to have none. If all that
+    came in bursts was their age, it is gone once they are taken as older, and errors are noise.
     """
-    errors = older.whitened
-    far_out = np.where(np.abs(errors) > FAR, errors, 0.0)
+    far_out = _beyond(FAR, older.whitened)
     return bursts(as_stamped) if rms_of_each(far_out).max() > BEYOND_NOISE else None
 
 
@@ -63,7 +62,12 @@ def is_small_part_of_bursts(told: Structure, fit: Fit) -> bool:
 def _standing_out(seen: Sequence[View]) -> Array:
     """Return what is followed where it stands out, 0 elsewhere, shape (k, 2)."""
     force = np.concatenate([_followed(view) for view in seen])
-    return np.where(np.abs(force) > OUTSTANDING * rms(force), force, 0.0)
+    return _beyond(OUTSTANDING * rms(force), force)
+
+
+def _beyond(limit: float, values: Array) -> Array:
+    """Return values that are larger than a limit, 0 in place of all others."""
+    return np.where(np.abs(values) > limit, values, 0.0)
 
 
 def _followed(view: View) -> Array:
