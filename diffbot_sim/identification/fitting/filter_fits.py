@@ -108,7 +108,7 @@ class Behind:
             missed = innovations(undone, self.space.model(u), gains)
             return missed * behind.at_once(self.interval)
 
-        at, cost = _fitted(errors, [self._block, _of_filter(numbers), OF_AGE])
+        at, cost = fitted(errors, [self._block, _of_filter(numbers), OF_AGE])
         u, _, own, age = np.split(at, ends)
         return Ended(self, cost, u, own, float(age[0]))
 
@@ -124,17 +124,16 @@ class Behind:
             parts = np.split(missed, counts)
             return np.concatenate([lfilter(past, given, of, axis=0) for of in parts])
 
-        at, cost = _fitted(errors, [self._block, _of_filter(numbers)])
+        at, cost = fitted(errors, [self._block, _of_filter(numbers)])
         u, _, own = np.split(at, ends)
         return Ended(self, cost, u, own)
 
     @property
-    def _block(self) -> '_Block':
-        start = np.concatenate([self.u, FIRST_GAINS])
-        return _Block(start, joint_prior(self.space), joint_bounds(self.space))
+    def _block(self) -> 'Block':
+        return of_structure(self.space, self.u, FIRST_GAINS)
 
 
-class _Block(NamedTuple):
+class Block(NamedTuple):
     """Some of the numbers of a fit: where they begin, what is known of them, how far they go."""
 
     start: Array
@@ -142,16 +141,21 @@ class _Block(NamedTuple):
     bounds: Bounds
 
 
-def _of_filter(numbers: Array) -> _Block:
+def of_structure(space: Space, u: Array, gains: Array) -> Block:
+    """Return the numbers of a structure, and the gains, as they begin a fit."""
+    return Block(np.concatenate([u, gains]), joint_prior(space), joint_bounds(space))
+
+
+def _of_filter(numbers: Array) -> Block:
     far = np.full(len(numbers), FARTHEST)
-    return _Block(numbers, Prior(numbers, np.full(len(numbers), DEVIATION)), (-far, far))
+    return Block(numbers, Prior(numbers, np.full(len(numbers), DEVIATION)), (-far, far))
 
 
 # Of a robot that is delayed nothing tells how old that is: most filters are told each sample.
-OF_AGE = _Block(OLD, Prior(np.zeros(1), np.ones(1)), (np.zeros(1), OLDEST))
+OF_AGE = Block(OLD, Prior(np.zeros(1), np.ones(1)), (np.zeros(1), OLDEST))
 
 
-def _fitted(errors: Errors, blocks: Sequence[_Block]) -> tuple[Array, float]:
+def fitted(errors: Errors, blocks: Sequence[Block]) -> tuple[Array, float]:
     """Fit numbers by robust least squares; return the point and -2 log-likelihood."""
     starts, priors, bounds = zip(*blocks, strict=True)
     prior = Prior(*map(np.concatenate, zip(*priors, strict=True)))

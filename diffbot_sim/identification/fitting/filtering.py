@@ -6,19 +6,25 @@ something else; then its colour and the lag have time constants of their own.
 """
 
 from collections.abc import Sequence
-from math import exp, inf, log
-from operator import itemgetter
+from dataclasses import replace
+from math import exp, inf
+from operator import attrgetter, itemgetter
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from diffbot_sim.identification.fitting.coordinates import Space, point_of
-from diffbot_sim.identification.fitting.fit import FIRST_GAINS, Fit, fit_prediction, fit_simulation
+from diffbot_sim.identification.fitting.filter_fits import DEVIATION, Block, fitted, of_structure
+from diffbot_sim.identification.fitting.fit import (
+    FIRST_GAINS,
+    Fit,
+    fit_prediction,
+    fit_simulation,
+    innovations,
+)
 from diffbot_sim.identification.fitting.standing_noise import denied_at_rest
 from diffbot_sim.identification.recordings.filters import (
     AGES,
-    Age,
     FirstOrder,
     before,
     passed_at_once,
@@ -33,14 +39,14 @@ from diffbot_sim.identification.recordings.start import restarted
 from diffbot_sim.identification.recordings.stretches import Stretch
 from diffbot_sim.identification.statistics.guards import VERY_STRONG
 from diffbot_sim.identification.statistics.memory import deviance_beyond_past
+from diffbot_sim.identification.statistics.minimisation import Prior
 from diffbot_sim.identification.statistics.norms import resolution
+from diffbot_sim.identification.statistics.parallel import side_by_side
 from diffbot_sim.physics.effects.actuator_lag import ActuatorLag
 from diffbot_sim.records import Array
 
-# How far from an effect's lateness the time constant is looked for, and how closely: shares.
-WITHIN, CLOSELY, LOOKS = 4.0, 0.02, 12
-# Rounds of the fits that are compared.
-ROUNDS = 2
+# How far from an effect's lateness the time constant is looked for: by such a factor.
+WITHIN = 4.0
 # Shares of an effect's lateness at which a filter beside it is tried first.
 BESIDE = (0.5, 0.125)
 
@@ -100,52 +106,59 @@ def filter_behind(fit: Fit) -> Likelier | None:
 
 
 class _Look(NamedTuple):
-    """A filter of some age that may be there; left: what is fitted once that is undone."""
+    """A filter beside what is left once it is undone, with the cost of both: -2 log-likelihood.
 
+    left: stretches as they were recorded, at the point and the gains where a fit begins or ended.
+    """
+
+    cost: float
+    behind: FirstOrder
     left: Fit
-    age: Age
 
-    def cost(self, time_constant: float) -> float:
-        """Return -2 log-likelihood with a filter of this time constant."""
-        return self._followed(time_constant, self.left.u, FIRST_GAINS)[0]
+    def best(self, shortest: float, longest: float) -> '_Look':
+        """Fit the time constant [s], between two, together with all else."""
+        left, size, age = self.left, len(self.left.u), self.behind.age
+        undone = [before(stretch, self.behind) for stretch in left.stretches]
+        starts = [stretch.start for stretch in restarted(left.model, undone)]
+        pairs = zip(left.stretches, starts, strict=True)
+        stretches = tuple(replace(stretch, start=start) for stretch, start in pairs)
 
-    def best(self, shortest: float, longest: float) -> tuple[float, FirstOrder]:
-        """Return the lowest cost, and the filter that has it, with a time constant between two."""
-        start = self.left.u, FIRST_GAINS
+        def errors(at: Array) -> Array:
+            behind = FirstOrder(exp(at[-1]), age)
+            undone = [before(stretch, behind) for stretch in stretches]
+            missed = innovations(undone, left.space.model(at[:size]), at[size:-1])
+            return missed * _let_through(stretches, behind.time_constant)
 
-        def cost(at: float) -> float:
-            nonlocal start
-            told, end = self._followed(exp(at), *start)
-            start = end.u, end.gains  # the next filter is nearly the same
-            return told
+        time, bounds = np.log([self.behind.time_constant]), np.log([[shortest], [longest]])
+        of_filter = Block(time, Prior(time, np.array([DEVIATION])), (bounds[0], bounds[1]))
+        at, cost = fitted(errors, [of_structure(left.space, left.u, left.gains), of_filter])
+        end = replace(left, stretches=stretches, u=at[:size], gains=at[size:-1])
+        return _Look(cost, FirstOrder(exp(at[-1]), age), end)
 
-        found = minimize_scalar(
-            cost,
-            bounds=(log(shortest), log(longest)),
-            method='bounded',
-            options={'xatol': CLOSELY, 'maxiter': LOOKS},
-        )
-        return float(found.fun), FirstOrder(exp(found.x), self.age)
 
-    def _followed(self, time_constant: float, start: Array, gains: Array) -> tuple[float, Fit]:
-        """Return -2 log-likelihood once a filter is undone, and the fit, begun at a point."""
-        behind = FirstOrder(time_constant, self.age)
-        undone = tuple(before(stretch, behind) for stretch in self.left.stretches)
-        stretches = restarted(self.left.space.model(start), undone)
-        fit = fit_prediction(self.left.space, stretches, start, gains, ROUNDS)
-        shares = [passed_at_once(s.time, time_constant)[s.used[1:]] for s in stretches]
-        return _cost(fit) + 4.0 * float(np.log(np.concatenate(shares)).sum()), fit
+def _let_through(stretches: Sequence[Stretch], time_constant: float) -> float:
+    """Return the share of a change that a filter lets through at once, the geometric mean."""
+    shares = [passed_at_once(s.time, time_constant)[s.used[1:]] for s in stretches]
+    return exp(float(np.log(np.concatenate(shares)).mean()))
 
 
 def _likelier(
     left: Fit, most: float, tried: Sequence[float], within: tuple[float, float]
 ) -> list[tuple[float, FirstOrder]]:
-    """Return the best filter of each age, if one of those tried first costs no more than most.
+    """Return the best filter of each age, if it costs no more than most.
 
-    left: what is fitted once it is undone; within: the shortest and longest time constant [s].
+    left: what is fitted once it is undone; tried: where the time constant begins [s]; within: the
+    shortest and the longest.
     """
-    looks = (_Look(left, age) for age in AGES)
-    return [look.best(*within) for look in looks if any(look.cost(at) <= most for at in tried)]
+    # The noise model has followed what was filtered.
+    left = replace(left, gains=FIRST_GAINS)
+    each_sample, often = AGES
+    looks = [_Look(inf, FirstOrder(at, each_sample), left) for at in tried]
+    ends = side_by_side(lambda look: look.best(*within), looks)
+    one = min(ends, key=attrgetter('cost'))
+    # A filter that is told more often is nearly the same.
+    other = one._replace(behind=one.behind._replace(age=often)).best(*within)
+    return [(look.cost, look.behind) for look in (one, other) if look.cost <= most]
 
 
 def _allowed(stretches: Sequence[Stretch], near: float) -> float:
