@@ -21,7 +21,7 @@ NEAR = (Slope, QuadraticDrag, ActuatorLag, YawFriction)  # kinds that are asked 
 
 def drive(effects: tuple[Effect, ...], robot: Model | None = None) -> Run:
     """Return a drive of our own robot, or another, with some effects."""
-    forces = random_forces(5, 45.0, -9.0, 11.0)
+    forces = random_forces(5, 35.0, -9.0, 11.0)
     return rehearse(replace(robot or Model(), effects=effects), forces, Surroundings(), 5)
 
 

@@ -31,8 +31,8 @@ DECLARED = Model(
 def answer(case: str) -> Identification:
     """Drive twice, identify the first drive, judge by the second."""
     with TemporaryDirectory() as folder:
-        train = recorded(Path(folder), case, 1, 90.0)
-        validate = recorded(Path(folder), case, 2, 60.0)
+        train = recorded(Path(folder), case, 1, 60.0)
+        validate = recorded(Path(folder), case, 2, 45.0)
     return identify([train], DECLARED, [validate])
 
 

@@ -28,7 +28,7 @@ BEGUN = {PowerLimit: (8.0, 8.0), VoltageLimit: (14.0, 1.5, 0.0), ActuatorSaturat
 
 @cache
 def driven(law: Effect) -> Run:
-    return rehearse(Model(effects=(law,)), random_forces(4, 60.0, -12.0, 14.0), Surroundings(), 4)
+    return rehearse(Model(effects=(law,)), random_forces(4, 45.0, -12.0, 14.0), Surroundings(), 4)
 
 
 @cache

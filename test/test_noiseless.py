@@ -26,7 +26,7 @@ KINDS = (Slope, YawFriction, ActuatorDelay)
 
 
 def test_slope_of_a_coarse_simulator_is_named_alone() -> None:
-    result = identify([driven_by_euler(0.01, seed=1)], DECLARED, kinds=KINDS)
+    result = identify([driven_by_euler(0.01, seed=1, duration=40.0)], DECLARED, kinds=KINDS)
     (slope,) = result.effects
     assert slope.name == 'slope'
     assert slope.parameters['grade_x'].value == pytest.approx(-0.01, rel=0.1)

@@ -27,7 +27,7 @@ def seen_after(cosine: float, sine: float, angle: float) -> tuple[float, float]:
 def run(number: int, right: float, left: float) -> Run:
     """Return a drive of one robot whose wheels stand at some angles as it begins."""
     ripple = WheelRipple(ORDER, *seen_after(0.5, 0.2, right), *seen_after(-0.3, 0.4, left))
-    forces = random_forces(number, 50.0, -7.0, 9.0)
+    forces = random_forces(number, 35.0, -7.0, 9.0)
     driven = rehearse(Model(effects=(ripple,)), forces, Surroundings(), number)
     return replace(driven, name=f'run {number}')
 
