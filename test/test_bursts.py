@@ -1,13 +1,15 @@
 """Forces that come in bursts, depend on nothing, and push a robot harder than a floor does."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from fits import ROUGH, acted_otherwise, fitted, leaving
+from fits import ROUGH, acted_otherwise, fitted
 from rehearsal import Surroundings
 
 from diffbot_sim.identification import identify
 from diffbot_sim.identification.fitting.fit import Fit
-from diffbot_sim.identification.free_forms.bursts import bursts, bursts_still
+from diffbot_sim.identification.free_forms.bursts import bursts
 from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.physics import Model
 from diffbot_sim.physics.effects.slope import Slope
@@ -62,8 +64,15 @@ def test_bursts_are_told_over_time_and_as_what_they_are_like(cut_out: Fit) -> No
     assert np.corrcoef(left.force, lacking)[0, 1] > 0.5
 
 
-def test_bursts_are_told_of_older_twists_where_these_leave_errors_far_out(cut_out: Fit) -> None:
-    noise = RANDOM.normal(size=(3000, 2))
-    banged = noise + 10.0 * (RANDOM.random((3000, 1)) < 0.01)
-    assert bursts_still(cut_out, leaving(noise)) is None
-    assert bursts_still(cut_out, leaving(banged)) is not None
+def test_knocks_that_no_noise_model_follows_are_told() -> None:
+    knocked = (RANDOM.random(3000) < 0.005)[:, None] * np.array([60.0, 60.0])
+    left = bursts(fitted(acted_otherwise(DRIVE, FORCES + knocked))[0])
+    assert left is not None
+    assert left.axis == 'v'
+
+
+def test_odometry_that_is_at_fault_for_moments_tells_of_no_force() -> None:
+    run = acted_otherwise(DRIVE, FORCES)
+    at_fault = 0.2 * (RANDOM.random((3000, 2)) < 0.005)
+    wrong = replace(run.odometry, twist=run.odometry.twist + at_fault)
+    assert bursts(fitted(replace(run, odometry=wrong))[0]) is None

@@ -21,7 +21,6 @@ from diffbot_sim.identification.fitting.filtering import Likelier, filter_behind
 from diffbot_sim.identification.fitting.fit import Fit, fit_prediction
 from diffbot_sim.identification.fitting.second_order import filter_seen_at_rest, with_structure
 from diffbot_sim.identification.found import Begun, Found
-from diffbot_sim.identification.free_forms.bursts import bursts_still
 from diffbot_sim.identification.leading import lead_of
 from diffbot_sim.identification.older import (
     Ages,
@@ -122,20 +121,12 @@ def _held_against_older(
         other = taken.as_older(older)
         ends = (other.undoubted.final, ages.timely(older))
         if any(is_taken(older, first, end, unexplained) for end in ends):
-            return _bursting_still(other, found)
+            return other
         lead = max(lead_of_means(older, first, end, unexplained) for end in ends)
         if lead > 0.0:
             return _taken_as_led(other.recordings, lead, question)
     unfiltered = found if behind is None else _unfiltered(found, behind, question)
     return replace(unfiltered, undecided=ages.is_undecided)
-
-
-def _bursting_still(other: Found, found: Found) -> Found:
-    """Leave bursts unexplained that no age of the twists accounts for."""
-    if found.unexplained is None or other.unexplained is not None:
-        return other
-    left = bursts_still(found.selection.final, other.selection.final)
-    return replace(other, unexplained=left)
 
 
 def _outdoes(behind: Likelier, fit: Fit, ages: Ages, older: Older) -> bool:
