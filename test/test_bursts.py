@@ -8,7 +8,6 @@ from fits import ROUGH, acted_otherwise, fitted
 from rehearsal import Surroundings
 
 from diffbot_sim.identification import identify
-from diffbot_sim.identification.fitting.fit import Fit
 from diffbot_sim.identification.free_forms.bursts import bursts
 from diffbot_sim.identification.free_forms.near_rest import eased
 from diffbot_sim.physics import Model
@@ -22,12 +21,6 @@ FORCES = RANDOM.choice([-10.0, -7.0, 7.0, 10.0], size=(100, 2))[(TIME / 0.6).ast
 DRIVE = Commands(TIME, FORCES)
 CUT_OUT = RANDOM.random(120)[(TIME / 0.5).astype(int)] < 0.1
 GIVEN = FORCES * ~CUT_OUT[:, None]
-
-
-@pytest.fixture(scope='module')
-def cut_out() -> Fit:
-    """Return a fit to a drive that cuts out."""
-    return fitted(acted_otherwise(DRIVE, GIVEN))[0]
 
 
 @pytest.mark.parametrize('roughness', [0.0, 0.3, 0.9])
@@ -55,8 +48,8 @@ def test_brake_that_lets_go_late_is_not_allowed_for_as_friction() -> None:
     assert not np.any(eased_fit.stretches[0].pushes)
 
 
-def test_bursts_are_told_over_time_and_as_what_they_are_like(cut_out: Fit) -> None:
-    left = bursts(cut_out)
+def test_bursts_are_told_over_time_and_as_what_they_are_like() -> None:
+    left = bursts(fitted(acted_otherwise(DRIVE, GIVEN))[0])
     assert left is not None
     assert 'as if the drives gave less' in left.description
     along = {'v': (1.0, 1.0), 'omega': (1.0, -1.0)}[left.axis]

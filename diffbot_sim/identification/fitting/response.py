@@ -84,7 +84,7 @@ def response(model: Model, stretch: Stretch, gains: Array, force: float) -> Resp
     push = force * np.array([1.0, model.half_separation])
     sizes = np.concatenate([push * stretch.interval / body, push])
     slopes = np.stack([steps.slope(by) for by in np.diag(sizes)], axis=-1)
-    intervals = np.diff(stretch.time, prepend=stretch.time[0] - stretch.interval)[:, None]
+    intervals = stretch.intervals[:, None]
     gain = gains[DISTURBANCE] * at_end(stretch) * body / intervals
     counting = heard(stretch, gains)
     taken = counting.taken(gains[SPEED] * at_end(stretch))

@@ -72,8 +72,7 @@ def _missed(view: View) -> Array:
     left = fit.gains[SPEED] * at_end(stretch) * errors
     left[:-1] += errors[1:]
     lasting = np.where(left * errors > LASTING * errors**2, errors, 0.0)
-    interval = np.diff(stretch.time, prepend=stretch.time[0] - stretch.interval)[:, None]
-    push = _beyond(FAR * fit.sigma, lasting) * fit.model.pack()[:2] / interval
+    push = _beyond(FAR * fit.sigma, lasting) * fit.model.pack()[:2] / stretch.intervals[:, None]
     return on_wheels(push, fit.model.half_separation)
 
 

@@ -63,8 +63,8 @@ class Stretch:
 
     @cached_property
     def intervals(self) -> Array:
-        """Time since the sample before [s], 0 at the first, shape (k,)."""
-        return np.diff(self.time, prepend=self.time[0])
+        """Time since the sample before [s], the median at the first, shape (k,)."""
+        return np.diff(self.time, prepend=self.time[0] - self.interval)
 
     @cached_property
     def counted(self) -> NDArray[np.intp]:
